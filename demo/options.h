@@ -1,0 +1,61 @@
+#pragma once
+// Options that several subcommands share, and how what is given, baked, in the scene and by default combine.
+#include <CLI/App.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/baked/baked_file.h"
+#include "engine/scene/gltf.h"
+#include "engine/scene/pose.h"
+#include "engine/scene/sky.h"
+
+namespace daylit {
+
+/// SCENE with place, day, sun, sky, unit and materials. What is not given comes from the baked file, then from the
+/// scene's extras.daylit, then from the defaults.
+struct SceneOptions {
+    std::string scene;
+    std::optional<double> latitude, longitude, utc_offset, north, turbidity, clouds, unit;
+    std::optional<std::string> date, sun, sun_direction, sun_lux, sky, materials;
+};
+void add_scene_options(CLI::App& app, SceneOptions& options);
+
+/// Baked file named by --light (or none), its settings respected by the loads below.
+struct LoadedScene {
+    Scene scene;
+    std::optional<Baked> baked;
+    LightSettings light;
+    double unit = 1.0;
+    bool lambert = false;
+};
+/// light_file empty: no baked file.
+LoadedScene load(const SceneOptions& options, const std::string& light_file = {});
+
+/// Where the camera stands, when it is, how large the picture is.
+struct ViewOptions {
+    std::string camera, eye, at;
+    double fov = 60.0;  // vertical, degrees
+    std::string hour = "12";
+    std::string size = "1280x720";
+    std::string show = "final";
+    std::string ev = "auto";
+    std::vector<std::string> moves;
+    double time = 0.0;  // seconds on the animations' clocks
+};
+void add_view_options(CLI::App& app, ViewOptions& options, bool with_hour = true);
+
+/// Parsed and checked forms; each throws UsageError (exit 2) for bad syntax and Error (exit 1) for values out of range.
+double parse_hour(const std::string& text);  // "7.5" or "07:30", in [0,24)
+struct Size {
+    int width, height;
+};
+Size parse_size(const std::string& text);  // WxH, 1 to 16384 each
+Vec3 parse_vec3(const std::string& option, const std::string& text);
+Date parse_date(const std::string& text);
+double parse_duration_hours(const std::string& text);  // "5m", "1h", "0.5h"
+std::vector<NodeMove> parse_moves(const Scene& scene, const std::vector<std::string>& moves);
+/// --camera, else --eye/--at/--fov, else the first camera, else an overview of the scene.
+View view_from_options(const ViewOptions& options, const Scene& scene, const Pose& pose);
+
+}  // namespace daylit

@@ -1,0 +1,77 @@
+#pragma once
+// The light of sun and sky at one hour, from one clear-sky model or from an image; the same tables serve the baker, the
+// reference and the renderer.
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "engine/base/image.h"
+#include "engine/scene/day.h"
+#include "engine/scene/pose.h"
+
+namespace daylit {
+
+/// The sun (or a glTF directional light): a disc of kSunRadius. Its radiance is irradiance / (pi sin^2 radius).
+struct Sun {
+    Vec3 direction = Vec3(0, 1, 0);  // towards it, unit
+    Rgb irradiance = Rgb(0.0f);      // lux on a plane facing it
+};
+Rgb disc_radiance(const Sun& sun);
+
+/// Radiance from infinitely far away over all directions, without the sun's disc. Latitude-longitude, row 0 at +Y:
+/// u = 0.5 + atan2(d.x, -d.z) / (2 pi), v = acos(d.y) / pi; so the middle column looks along -Z.
+/// Bilinear between texel centres, wrapping in u, clamping in v. A 1x1 map is a constant.
+struct Environment {
+    Image map;  // cd/m^2, finite and non-negative
+    bool black() const;
+    bool constant() const { return map.width == 1 && map.height == 1; }
+    Rgb radiance(const Vec3& direction) const;
+};
+Vec2 latlong_from_direction(const Vec3& direction);  // u, v in [0,1]
+Vec3 direction_from_latlong(const Vec2& uv);
+
+enum class SunSource { Day, Scene, None, Given };
+enum class SkySource { Day, None, File, Constant };
+
+/// Where light comes from; every hour of it. The scene's own lamps and emission are not part of this.
+struct LightSettings {
+    Day day;
+    SunSource sun = SunSource::Day;
+    Vec3 sun_direction = Vec3(0, 1, 0);  // Given: towards the sun
+    Rgb sun_illuminance = Rgb(90000.0f);  // Given: lux on a plane facing it
+    SkySource sky = SkySource::Day;
+    std::filesystem::path sky_file;
+    Rgb sky_radiance = Rgb(0.0f);  // Constant, cd/m^2
+    double turbidity = 2.5;        // 1 (pure air) to 10 (haze)
+    double clouds = 0.0;           // share of the sky covered, 0 to 1
+    bool operator==(const LightSettings&) const = default;
+};
+
+struct Lighting {
+    std::vector<Sun> suns;  // empty by night; SunSource::Scene may give several
+    Environment sky;
+};
+
+/// Computes the light of any hour; made once per scene and settings (holds the atmosphere's tables or the sky image).
+/// Thread-safe to call. throws Error for an unreadable or unusable sky file.
+class LightModel {
+  public:
+    /// placed   the scene's lights, of which the directional ones are used by SunSource::Scene
+    LightModel(const LightSettings& settings, std::vector<PlacedLight> placed);
+    ~LightModel();
+    LightModel(LightModel&&) noexcept;
+    LightModel& operator=(LightModel&&) noexcept;
+
+    const LightSettings& settings() const;
+    Lighting at(double hour) const;
+    /// As at(), without the sky's map: only the suns. Cheap.
+    std::vector<Sun> suns(double hour) const;
+    /// True when the light is the same at all hours.
+    bool constant() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace daylit

@@ -1,0 +1,67 @@
+#pragma once
+// The only door to Embree: closest hits and transmittance in a WorldMesh. No other folder includes Embree.
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "engine/scene/pose.h"
+
+namespace daylit {
+
+struct Ray {
+    Vec3 origin;
+    Vec3 direction;  // unit
+    float t_min = 0.0f;
+    float t_max = 1e30f;
+};
+
+struct Hit {
+    float distance = 0.0f;        // metres
+    std::uint32_t triangle = 0;   // in the WorldMesh
+    Vec2 barycentric = Vec2(0);   // weights of the triangle's second and third corner
+    Vec3 normal = Vec3(0, 1, 0);  // geometric, unit, by the triangle's winding (not turned towards the ray)
+};
+
+/// Everything a hit point needs for shading; interpolated from the WorldMesh.
+struct SurfacePoint {
+    Vec3 position;
+    Vec3 geometric_normal;  // unit, turned to the side the ray came from
+    Vec3 shading_normal;    // unit, same side; normal map included
+    std::array<Vec2, 2> uvs;
+    Rgba color;  // vertex colour
+    std::uint32_t material;
+};
+
+/// Immutable after construction; all queries are thread-safe and deterministic (medium build quality, robust
+/// intersection, ties resolved by triangle index).
+/// The scene and mesh must outlive it. Triangles of zero area and with non-finite corners are left out.
+class RayScene {
+  public:
+    RayScene(const Scene& scene, const WorldMesh& mesh);
+    ~RayScene();
+    RayScene(RayScene&&) noexcept;
+
+    const Scene& scene() const;
+    const WorldMesh& mesh() const;
+    Bounds bounds() const;
+
+    /// The nearest surface, coverage ignored except MASK (cut-out texels are never hit).
+    /// BLEND surfaces are passed with probability 1 - alpha by a hash of (key, triangle): unbiased coverage. Pass a
+    /// different key for every ray.
+    std::optional<Hit> closest(const Ray& ray, std::uint64_t key) const;
+
+    /// Share of light let through between the ray's ends: 0 blocked; MASK cut-outs let all, BLEND 1 - alpha each.
+    float transmittance(const Ray& ray) const;
+
+    SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
+
+    /// Start of a ray that leaves a surface point: moved off the plane along the geometric normal (on the side of
+    /// `direction`) by an amount that scales with the coordinates (Waechter and Binder 2019).
+    static Vec3 offset_origin(const Vec3& position, const Vec3& geometric_normal, const Vec3& direction);
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace daylit

@@ -1,0 +1,48 @@
+// The one BRDF of daylit, for baker, reference and shaders: Lambert plus energy-conserving normalised Phong,
+//   f = diffuse / pi + specular (n + 2) / (2 pi) max(0, r.l)^n,     r = reflect(-view, normal),
+// with diffuse + specular <= 1 per channel (Phong 1975; normalisation of Lafortune and Willems 1994, eq. 2-4).
+// No Fresnel term: it keeps f reciprocal, and its lobe samplable exactly.
+#ifndef SHADERS_SHARED_BRDF_H
+#define SHADERS_SHARED_BRDF_H
+#include "shaders/shared/glsl.h"
+SHARED_BEGIN
+
+struct Brdf {
+    vec3 diffuse;    // albedo of the Lambert part
+    vec3 specular;   // albedo of the Phong lobe at normal incidence
+    float exponent;  // n of the Phong lobe, 0 to kMaxPhongExponent
+};
+
+// A lobe of this exponent is 0.26 degrees wide, no wider than the sun's disc: a mirror to the eye.
+const float kMaxPhongExponent = 1.0e5f;
+const float kSharedPi = 3.14159265358979f;
+
+// glTF metallic-roughness to Lambert + Phong. The exponent is that of the half-vector lobe of equal width,
+// 2 / alpha^2 - 2 with alpha = roughness^2 (Walter et al. 2007, section 5.3).
+//   base_color          linear albedo
+//   dielectric_f0       normal reflectance of the dielectric coat: ((ior - 1) / (ior + 1))^2 times the specular
+//                       factor and colour of KHR_materials_specular, at most 1
+SHARED_FN Brdf brdf_from_metallic_roughness(vec3 base_color, float metallic, float roughness, vec3 dielectric_f0) {
+    float alpha = max(roughness * roughness, 1.0e-4f);
+    float largest_f0 = max(dielectric_f0.x, max(dielectric_f0.y, dielectric_f0.z));
+    Brdf brdf;
+    brdf.diffuse = base_color * ((1.0f - metallic) * (1.0f - largest_f0));
+    brdf.specular = mix(dielectric_f0, base_color, metallic);
+    brdf.exponent = clamp(2.0f / (alpha * alpha) - 2.0f, 0.0f, kMaxPhongExponent);
+    return brdf;
+}
+
+// f in 1/sr; cos_lobe = dot(reflect(-view, normal), light).
+SHARED_FN vec3 evaluate_brdf(Brdf brdf, float cos_lobe) {
+    float lobe = (brdf.exponent + 2.0f) / (2.0f * kSharedPi) * pow(max(cos_lobe, 0.0f), brdf.exponent);
+    return brdf.diffuse / kSharedPi + brdf.specular * lobe;
+}
+
+// The exponent of a Phong lobe seen under a uniform disc of the given angular radius: variances of the two narrow
+// kernels add (2 / n for the lobe, radius^2 / 2 for the disc).
+SHARED_FN float disc_widened_exponent(float exponent, float radius) {
+    return 2.0f / (2.0f / max(exponent, 1.0e-3f) + 0.5f * radius * radius);
+}
+
+SHARED_END
+#endif
