@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "demo/parse.h"
 #include "engine/baked/baked_file.h"
 #include "engine/scene/gltf.h"
 #include "engine/scene/pose.h"
@@ -45,15 +46,9 @@ struct ViewOptions {
 };
 void add_view_options(CLI::App& app, ViewOptions& options, bool with_hour = true);
 
-/// Parsed and checked forms; each throws UsageError (exit 2) for bad syntax and Error (exit 1) for values out of range.
-double parse_hour(const std::string& text);  // "7.5" or "07:30", in [0,24)
-struct Size {
-    int width, height;
-};
-Size parse_size(const std::string& text);  // WxH, 1 to 16384 each
-Vec3 parse_vec3(const std::string& option, const std::string& text);
-Date parse_date(const std::string& text);
-double parse_duration_hours(const std::string& text);  // "5m", "1h", "0.5h"
+/// EV100, or none for "auto".
+std::optional<double> parse_ev(const std::string& text);
+/// NODE=x,y,z[,yaw in degrees]; the error lists the nodes there are.
 std::vector<NodeMove> parse_moves(const Scene& scene, const std::vector<std::string>& moves);
 /// --camera, else --eye/--at/--fov, else the first camera, else an overview of the scene.
 View view_from_options(const ViewOptions& options, const Scene& scene, const Pose& pose);

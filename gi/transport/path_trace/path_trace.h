@@ -1,19 +1,15 @@
 #pragma once
 // The unbiased reference: unidirectional path tracing with next-event estimation and multiple importance sampling
 // (Kajiya 1986; Veach 1997, balance/power heuristic), Russian roulette, counter-based random numbers.
-#include <functional>
 #include <span>
 #include <vector>
 
+#include "engine/base/progress.h"
 #include "engine/scene/layer.h"
 #include "engine/scene/sky.h"
 #include "gi/trace/ray_scene.h"
 
 namespace daylit {
-
-/// Called from time to time with the share done, 0 to 1; returning false stops the work (Interrupted is thrown).
-using Progress = std::function<bool(double done)>;
-struct Interrupted {};
 
 struct PathTraceSettings {
     int spp = 64;          // samples per pixel (or per point)

@@ -1,0 +1,73 @@
+// The daylit command: reads the options, calls the library, prints one line when something is wrong.
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "demo/commands.h"
+#include "demo/progress.h"
+#include "engine/base/error.h"
+
+namespace {
+
+constexpr int kFailure = 1, kWrongUsage = 2, kInterrupted = 130;
+
+void add_commands(CLI::App& app) {
+    daylit::add_make(app);
+    daylit::add_check(app);
+#ifdef DAYLIT_WITH_BAKER
+    daylit::add_bake(app);
+#endif
+    daylit::add_info(app);
+#ifdef DAYLIT_WITH_GL
+    daylit::add_walk(app);
+    daylit::add_shot(app);
+    daylit::add_day(app);
+#endif
+#ifdef DAYLIT_WITH_BAKER
+    daylit::add_reference(app);
+    daylit::add_points(app);
+#endif
+    daylit::add_compare(app);
+}
+
+int fail(int status, const char* message) {
+    std::fprintf(stderr, "daylit: %s\n", message);
+    return status;
+}
+
+int run(int argc, char** argv) {
+    CLI::App app("daylit lights game levels through a whole day.", "daylit");
+    app.require_subcommand(1);
+    add_commands(app);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp& help) {
+        return app.exit(help);
+    } catch (const CLI::CallForAllHelp& help) {
+        return app.exit(help);
+    } catch (const CLI::ParseError& error) {
+        return fail(kWrongUsage, (std::string(error.what()) + " (see daylit --help)").c_str());
+    }
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const daylit::UsageError& error) {
+        return fail(kWrongUsage, error.what());
+    } catch (const daylit::Error& error) {
+        return fail(kFailure, error.what());
+    } catch (const daylit::Interrupted&) {
+        return fail(kInterrupted, "stopped; nothing was written");
+    } catch (const std::bad_alloc&) {
+        return fail(kFailure, "out of memory; try a smaller --size or a coarser --quality");
+    } catch (const std::exception& error) {
+        return fail(kFailure, error.what());
+    }
+}
