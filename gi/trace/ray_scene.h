@@ -32,8 +32,9 @@ struct SurfacePoint {
     std::uint32_t material;
 };
 
-/// Immutable after construction; all queries are thread-safe and deterministic (medium build quality, robust
-/// intersection, ties resolved by triangle index).
+/// Immutable after construction; all queries are thread-safe and deterministic for any number of threads (medium build
+/// quality, robust intersection; of opaque triangles with the same corners the lowest index is kept, other ties follow
+/// the order of a hierarchy that is always built alike).
 /// The scene and mesh must outlive it. Triangles of zero area and with non-finite corners are left out.
 class RayScene {
   public:
