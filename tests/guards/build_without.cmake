@@ -1,0 +1,27 @@
+# Configures and builds daylit without one of its halves, then makes sure that nothing of that half was linked.
+#   cmake -DSOURCE=... -DBINARY=... -DWITHOUT=baker|gl -P build_without.cmake
+if(WITHOUT STREQUAL "baker")
+  set(options -DDAYLIT_BAKER=OFF -DCMAKE_DISABLE_FIND_PACKAGE_embree=ON -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON)
+  set(forbidden "libembree")
+elseif(WITHOUT STREQUAL "gl")
+  set(options -DDAYLIT_GL=OFF -DCMAKE_DISABLE_FIND_PACKAGE_glfw3=ON)
+  set(forbidden "libEGL|libOSMesa|libglfw")
+else()
+  message(FATAL_ERROR "WITHOUT is 'baker' or 'gl', not '${WITHOUT}'")
+endif()
+
+function(must_run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${ARGN} failed:\n${output}")
+  endif()
+endfunction()
+
+must_run(${CMAKE_COMMAND} -S ${SOURCE} -B ${BINARY} -G Ninja -DCMAKE_BUILD_TYPE=Release -DDAYLIT_TESTS=OFF ${options})
+must_run(${CMAKE_COMMAND} --build ${BINARY})
+execute_process(COMMAND ldd ${BINARY}/demo/daylit OUTPUT_VARIABLE libraries COMMAND_ERROR_IS_FATAL ANY)
+if(libraries MATCHES "${forbidden}")
+  message(FATAL_ERROR "daylit without ${WITHOUT} still links ${CMAKE_MATCH_0}")
+endif()
+must_run(${BINARY}/demo/daylit make --list)
+message(STATUS "daylit builds and starts without ${WITHOUT}")
