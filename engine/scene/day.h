@@ -24,7 +24,8 @@ struct Day {
 struct SunPosition {
     double azimuth = 0;    // radians, clockwise from north
     double elevation = 0;  // radians, topocentric, without refraction
-    double apparent_elevation = 0;  // radians, with refraction at 1010 mbar and 10 degrees C; what the light uses
+    double apparent_elevation = 0;  // radians, with refraction at 1010 mbar and 10 degrees C; what the light uses.
+                                    // Continuous and increasing in elevation, below the horizon too
     double distance = 1;   // astronomical units
     Vec3 direction = Vec3(0, 1, 0);  // towards the apparent sun, world axes, unit
 };
@@ -35,7 +36,8 @@ SunPosition sun_position(const Day& day, double hour);
 enum class DayKind { Normal, PolarDay, PolarNight };
 
 /// Sunrise and sunset are when the upper limb is at the refracted horizon (centre at -0.8333 degrees), local clock
-/// hours of this date; an event that does not happen on this date is empty. transit is the highest point.
+/// hours of this date; an event that does not happen on this date is empty. transit is the meridian passage.
+/// Where the sun rises or sets twice on one date, the events nearest to the transit are given.
 struct SunTimes {
     DayKind kind = DayKind::Normal;
     std::optional<double> sunrise, sunset;
