@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""Screenshots off-screen through EGL against small path-traced references.
+
+  screenshots.py DAYLIT WORK --list             the cases by name
+  screenshots.py DAYLIT WORK --prepare          makes and bakes the scenes in WORK
+  screenshots.py DAYLIT WORK --case NAME        one test; pictures land in WORK
+  screenshots.py DAYLIT WORK --renew [NAME ...] path-traces references anew (all of them without a name)
+
+The references lie in references/ beside this file; each EXR's header holds the command and the standard error that made
+it. A missing reference is a failure. On failure WORK holds NAME.exr, NAME.reference.exr and NAME.difference.png.
+"""
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).parent
+SIZE = "160x90"
+REFERENCE_ERROR = "0.01"
+TABLE = json.loads((HERE / "cases.json").read_text())
+daylit, work = sys.argv[1], pathlib.Path(sys.argv[2])
+
+
+def cases():
+    for row in TABLE["cases"]:
+        for hour in row["hours"]:
+            yield row | {"hour": hour, "name": f"{row['scene']}-{row['camera']}-{hour:02d}-{row['show']}"}
+
+
+def run(*arguments):
+    result = subprocess.run([daylit, *map(str, arguments)], capture_output=True, text=True)
+    if result.returncode != 0:
+        sys.exit(f"daylit {' '.join(map(str, arguments))}\nended with {result.returncode}: {result.stderr}")
+    return result.stdout
+
+
+def scene_file(name):
+    return work / f"{name}.glb"
+
+
+def light_file(name):
+    return work / f"{name}.daylit"
+
+
+def prepare(names, bake=True):
+    work.mkdir(parents=True, exist_ok=True)
+    for name in names:
+        run("make", name, "-o", scene_file(name))
+        if bake and "bake" in TABLE["scenes"][name]:
+            run("bake", scene_file(name), "-o", light_file(name), *TABLE["scenes"][name]["bake"])
+
+
+def view(case):
+    return ["--camera", case["camera"], "--hour", case["hour"], "--size", SIZE, "--show", case["show"]]
+
+
+def renew(case):
+    target = HERE / "references" / f"{case['name']}.exr"
+    target.parent.mkdir(exist_ok=True)
+    run("reference", scene_file(case["scene"]), "-o", target, *view(case), "--error", REFERENCE_ERROR)
+    print(f"renewed {target.name}", flush=True)
+
+
+def test(case):
+    reference = HERE / "references" / f"{case['name']}.exr"
+    if not reference.exists():
+        sys.exit(f"{reference} is missing; make it with: tests/images/screenshots.py DAYLIT WORK --renew {case['name']}")
+    ours = work / f"{case['name']}.exr"
+    difference = work / f"{case['name']}.difference.png"
+    light = ["--light", light_file(case["scene"])] if light_file(case["scene"]).exists() else []
+    run("shot", scene_file(case["scene"]), "-o", ours, *light, *view(case), "--context", "egl")
+    measures = json.loads(run("compare", ours, reference, "-o", difference, "--json"))
+    line = f"{case['name']}: bias {measures['bias']:+.4f} (limit {case['bias']}), " \
+           f"flip_mean {measures['flip_mean']:.4f} (limit {case['flip']}), nan {measures['nan_count']}"
+    if measures["nan_count"] or abs(measures["bias"]) > case["bias"] or measures["flip_mean"] > case["flip"]:
+        shutil.copy(reference, work / f"{case['name']}.reference.exr")
+        sys.exit(f"FAILED {line}\nlook at {ours}, its .reference.exr and {difference}")
+    print(line)
+
+
+def main(mode, names):
+    table = {case["name"]: case for case in cases()}
+    unknown = [name for name in names if name not in table]
+    if unknown:
+        sys.exit(f"no case {', '.join(unknown)}; there are {', '.join(table)}")
+    if mode == "--list":
+        print(";".join(table), end="")
+    elif mode == "--prepare":
+        prepare(TABLE["scenes"])
+    elif mode == "--renew":
+        chosen = [table[name] for name in names] or list(table.values())
+        prepare({case["scene"] for case in chosen}, bake=False)
+        for case in chosen:
+            renew(case)
+    elif mode == "--case" and len(names) == 1:
+        test(table[names[0]])
+    else:
+        sys.exit(__doc__)
+
+
+main(sys.argv[3] if len(sys.argv) > 3 else "", sys.argv[4:])
