@@ -15,14 +15,27 @@ const char* name(ContextKind kind);
 
 /// A current context with its functions loaded. Every GL object made in it must die before it does.
 /// Off-screen drawing goes to framebuffer objects; a GLFW context also has its window's framebuffer 0.
+/// Several may live in one process, of one kind or of several; one at a time is current, all on one thread.
 class GlContext {
   public:
+    GlContext() = default;
+    GlContext(const GlContext&) = delete;
+    GlContext& operator=(const GlContext&) = delete;
     virtual ~GlContext() = default;
-    virtual void make_current() = 0;
-    /// Renderer and version as the driver says them.
+    /// Makes it current in place of whichever daylit context was, and points the loaded functions at its driver.
+    void make_current();
+    /// Renderer and version as the driver says them. The context must be current.
     std::string description() const;
     /// GLFW only; null otherwise.
     virtual GLFWwindow* window() { return nullptr; }
+
+  protected:
+    virtual ContextKind kind() const = 0;
+    virtual void bind() = 0;            // throws Error when the platform refuses
+    virtual void unbind() noexcept = 0;  // leaves the thread without a context of this platform
+    virtual void* function(const char* name) const = 0;
+    /// For destructors: unbinds when current.
+    void leave() noexcept;
 };
 
 struct ContextOptions {
