@@ -32,9 +32,11 @@ void load_functions(const Loader& loader) {
     }
 }
 
-void GLAD_API_PTR on_debug_message(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message, const void*) {
+// The shader compiler's complaints are left to Program, which knows files and lines.
+void GLAD_API_PTR on_debug_message(GLenum source, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message,
+                                   const void*) {
     const bool wrong = type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR;
-    if (wrong) debug_messages.emplace_back(message);
+    if (wrong && source != GL_DEBUG_SOURCE_SHADER_COMPILER) debug_messages.emplace_back(message);
 }
 
 void gather_debug_messages() {
@@ -45,9 +47,12 @@ void gather_debug_messages() {
 
 std::unique_ptr<GlContext> make_platform_context(ContextKind kind, const ContextOptions& options) {
     switch (kind) {
-        case ContextKind::Egl: return make_egl_context(options);
-        case ContextKind::OsMesa: return make_osmesa_context(options);
-        case ContextKind::Glfw: return make_glfw_context(options);
+        case ContextKind::Egl:
+            return make_egl_context(options);
+        case ContextKind::OsMesa:
+            return make_osmesa_context(options);
+        case ContextKind::Glfw:
+            return make_glfw_context(options);
     }
     throw std::logic_error("context kind out of range");
 }
@@ -63,9 +68,12 @@ ContextKind parse_context_kind(const std::string& text) {
 
 const char* name(ContextKind kind) {
     switch (kind) {
-        case ContextKind::Egl: return "egl";
-        case ContextKind::OsMesa: return "osmesa";
-        case ContextKind::Glfw: return "glfw";
+        case ContextKind::Egl:
+            return "egl";
+        case ContextKind::OsMesa:
+            return "osmesa";
+        case ContextKind::Glfw:
+            return "glfw";
     }
     return "";
 }

@@ -31,7 +31,7 @@ class GlContext {
 
   protected:
     virtual ContextKind kind() const = 0;
-    virtual void bind() = 0;            // throws Error when the platform refuses
+    virtual void bind() = 0;             // throws Error when the platform refuses
     virtual void unbind() noexcept = 0;  // leaves the thread without a context of this platform
     virtual void* function(const char* name) const = 0;
     /// For destructors: unbinds when current.

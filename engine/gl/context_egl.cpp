@@ -93,10 +93,14 @@ EGLContext create_context(EGLDisplay display, bool debug) {
     EGLConfig config = nullptr;
     EGLint count = 0;
     if (!egl().choose_config(display, config_wanted, &config, 1, &count) || count == 0) config = EGL_NO_CONFIG_KHR;
-    const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,       4,
-                             EGL_CONTEXT_MINOR_VERSION,       5,
-                             EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                             EGL_CONTEXT_OPENGL_DEBUG,        debug ? EGL_TRUE : EGL_FALSE,
+    const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
+                             4,
+                             EGL_CONTEXT_MINOR_VERSION,
+                             5,
+                             EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                             EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                             EGL_CONTEXT_OPENGL_DEBUG,
+                             debug ? EGL_TRUE : EGL_FALSE,
                              EGL_NONE};
     return egl().create_context(display, config, EGL_NO_CONTEXT, wanted);
 }
@@ -132,12 +136,8 @@ class EglContext : public GlContext {
             throw Error("EGL", "its context cannot be made current: " + error_text());
         }
     }
-    void unbind() noexcept override {
-        egl().make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    }
-    void* function(const char* name) const override {
-        return reinterpret_cast<void*>(egl().get_proc_address(name));
-    }
+    void unbind() noexcept override { egl().make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
+    void* function(const char* name) const override { return reinterpret_cast<void*>(egl().get_proc_address(name)); }
 
   private:
     EGLDisplay display_ = EGL_NO_DISPLAY;

@@ -59,9 +59,7 @@ class OsMesaContext : public GlContext {
         }
     }
     void unbind() noexcept override { osmesa().make_current(nullptr, nullptr, 0, 0, 0); }
-    void* function(const char* name) const override {
-        return reinterpret_cast<void*>(osmesa().get_proc_address(name));
-    }
+    void* function(const char* name) const override { return reinterpret_cast<void*>(osmesa().get_proc_address(name)); }
 
   private:
     OSMesaContext context_ = nullptr;
@@ -70,6 +68,8 @@ class OsMesaContext : public GlContext {
 
 }  // namespace
 
-std::unique_ptr<GlContext> make_osmesa_context(const ContextOptions&) { return std::make_unique<OsMesaContext>(); }
+std::unique_ptr<GlContext> make_osmesa_context(const ContextOptions&) {
+    return std::make_unique<OsMesaContext>();
+}
 
 }  // namespace daylit

@@ -26,14 +26,30 @@ class GlName {
     GLuint name_;
 };
 
-inline void delete_buffer(GLuint name) { glDeleteBuffers(1, &name); }
-inline void delete_texture(GLuint name) { glDeleteTextures(1, &name); }
-inline void delete_framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
-inline void delete_vertex_array(GLuint name) { glDeleteVertexArrays(1, &name); }
-inline void delete_query(GLuint name) { glDeleteQueries(1, &name); }
-inline void delete_sampler(GLuint name) { glDeleteSamplers(1, &name); }
-inline void delete_shader(GLuint name) { glDeleteShader(name); }
-inline void delete_program(GLuint name) { glDeleteProgram(name); }
+inline void delete_buffer(GLuint name) {
+    glDeleteBuffers(1, &name);
+}
+inline void delete_texture(GLuint name) {
+    glDeleteTextures(1, &name);
+}
+inline void delete_framebuffer(GLuint name) {
+    glDeleteFramebuffers(1, &name);
+}
+inline void delete_vertex_array(GLuint name) {
+    glDeleteVertexArrays(1, &name);
+}
+inline void delete_query(GLuint name) {
+    glDeleteQueries(1, &name);
+}
+inline void delete_sampler(GLuint name) {
+    glDeleteSamplers(1, &name);
+}
+inline void delete_shader(GLuint name) {
+    glDeleteShader(name);
+}
+inline void delete_program(GLuint name) {
+    glDeleteProgram(name);
+}
 
 using GlBuffer = GlName<delete_buffer>;
 using GlTexture = GlName<delete_texture>;

@@ -97,9 +97,9 @@ class Assembler {
         return std::size_t(found - files_.begin());
     }
 
-    // Since GLSL 3.30 the line after "#line n s" has the number n.
+    // Since GLSL 3.30 the line after "#line n" has the number n.
     static std::string line_directive(int line, std::size_t number) {
-        return "#line " + std::to_string(line) + " " + std::to_string(number) + "\n";
+        return "#line " + std::to_string(number * kLinesPerFile + std::size_t(line)) + "\n";
     }
 
     std::filesystem::path root_;
@@ -135,20 +135,21 @@ ShaderSource assemble_shader(const std::filesystem::path& root, const std::strin
 }
 
 std::string map_shader_log(const std::string& log, std::span<const std::string> files) {
-    static const std::regex place(R"(^((?:ERROR|WARNING):\s*)?(\d+)(?::(\d+)(?:\(\d+\))?|\((\d+)\))\s*:\s*(.*)$)");
+    static const std::regex place(
+        R"(^((?:ERROR|WARNING):\s*)?\d+(?::(\d{1,9})(?:\(\d+\))?|\((\d{1,9})\))\s*:\s*(.*)$)");
     std::string mapped;
     std::istringstream lines(log);
     for (std::string line; std::getline(lines, line);) {
-        std::smatch match;
-        const bool known = std::regex_match(line, match, place) && match[2].length() < 6 &&
-                           std::size_t(std::stoul(match[2])) < files.size();
         if (!mapped.empty()) mapped += "\n";
-        if (!known) {
+        std::smatch match;
+        const bool placed = std::regex_match(line, match, place);
+        const unsigned long number = placed ? std::stoul(match[2].matched ? match[2] : match[3]) : 0;
+        if (!placed || number / kLinesPerFile >= files.size()) {
             mapped += line;
             continue;
         }
-        const std::string line_number = match[3].matched ? match[3].str() : match[4].str();
-        mapped += files[std::stoul(match[2])] + ":" + line_number + ": " + match[1].str() + match[5].str();
+        mapped += files[number / kLinesPerFile] + ":" + std::to_string(number % kLinesPerFile) + ": " + match[1].str() +
+                  match[4].str();
     }
     return mapped;
 }

@@ -29,7 +29,9 @@ void require_complete(GLuint framebuffer) {
 
 }  // namespace
 
-int mip_levels(int width, int height) { return int(std::bit_width(unsigned(std::max({width, height, 1})))); }
+int mip_levels(int width, int height) {
+    return int(std::bit_width(unsigned(std::max({width, height, 1}))));
+}
 
 GlTexture make_texture_2d(GLenum internal_format, int width, int height, int levels, const TextureLook& look) {
     GlTexture texture = make_texture(GL_TEXTURE_2D);
