@@ -19,6 +19,7 @@ struct FrameSettings {
     double hour = 12.0;  // for the baked light's weights
     Layer show = Layer::Final;
     std::optional<double> ev;  // EV100; none: auto exposure
+    bool meter = false;        // fill FrameReport::metered_ev though ev is given (the walk's eye adapts slowly to it)
     bool timings = false;  // glFinish around every pass, fills PassReport::milliseconds
 };
 
@@ -34,7 +35,8 @@ struct PassReport {
 struct FrameReport {
     std::vector<PassReport> passes;
     int objects_drawn = 0, objects_culled = 0;
-    double ev = 0.0;  // used
+    double ev = 0.0;          // used
+    double metered_ev = 0.0;  // what auto exposure chooses for this picture; filled when ev is none or meter is set
 };
 
 class Renderer {
