@@ -150,6 +150,8 @@ struct RayScene::State {
     Bounds bounds;
     std::vector<Vec3> normals;                          // one per triangle of the mesh; zero: left out
     std::array<std::vector<std::uint32_t>, 2> members;  // triangles of the two geometries: opaque, varying coverage
+    std::vector<bool> traced;
+    std::vector<Ray>* log = nullptr;
     Owned<RTCDevice> device;
     Owned<RTCScene> accelerator;
 
@@ -175,14 +177,16 @@ void RayScene::State::sort_triangles() {
     const CoverageOfTriangles coverage(scene, mesh);
     SeenTriangles seen(mesh);
     normals.resize(mesh.triangle_count(), Vec3(0.0f));
+    traced.resize(mesh.triangle_count(), false);
     for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
         const std::uint32_t* corner = &mesh.indices[3 * std::size_t(t)];
         const Vec3 normal =
             winding_normal(mesh.positions[corner[0]], mesh.positions[corner[1]], mesh.positions[corner[2]]);
+        normals[t] = normal;
         const Coverage share = coverage(t);
         if (normal == Vec3(0.0f) || share == Coverage::None) continue;
         if (share == Coverage::Full && seen.add(t)) continue;
-        normals[t] = normal;
+        traced[t] = true;
         members[share == Coverage::Varying].push_back(t);
         for (int k = 0; k < 3; ++k) bounds.add(mesh.positions[corner[k]]);
     }
@@ -273,7 +277,20 @@ Bounds RayScene::bounds() const {
     return state_->bounds;
 }
 
+bool RayScene::traced(std::uint32_t triangle) const {
+    return state_->traced[triangle];
+}
+
+const Vec3& RayScene::normal(std::uint32_t triangle) const {
+    return state_->normals[triangle];
+}
+
+void RayScene::log_rays(std::vector<Ray>* log) {
+    state_->log = log;
+}
+
 std::optional<Hit> RayScene::closest(const Ray& ray, std::uint64_t key) const {
+    if (state_->log) state_->log->push_back(ray);
     QueryContext query;
     rtcInitIntersectContext(&query.embree);
     query.key = key;
@@ -288,6 +305,7 @@ std::optional<Hit> RayScene::closest(const Ray& ray, std::uint64_t key) const {
 }
 
 float RayScene::transmittance(const Ray& ray) const {
+    if (state_->log) state_->log->push_back(ray);
     QueryContext query;
     rtcInitIntersectContext(&query.embree);
     RTCRay r = embree_ray(ray);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "engine/scene/pose.h"
 
@@ -45,6 +46,11 @@ class RayScene {
     const Scene& scene() const;
     const WorldMesh& mesh() const;
     Bounds bounds() const;
+    /// False for triangles left out: no area, corners that are not finite, cut out or clear everywhere, or the twin of
+    /// an earlier opaque one.
+    bool traced(std::uint32_t triangle) const;
+    /// Geometric normal by winding, unit; zero where the triangle has none.
+    const Vec3& normal(std::uint32_t triangle) const;
 
     /// The nearest surface, coverage ignored except MASK (cut-out texels are never hit).
     /// BLEND surfaces are passed with probability 1 - alpha by a hash of (key, triangle): unbiased coverage. Pass a
@@ -59,6 +65,10 @@ class RayScene {
     /// Start of a ray that leaves a surface point: moved off the plane along the geometric normal (on the side of
     /// `direction`) by an amount that scales with the coordinates (Waechter and Binder 2019).
     static Vec3 offset_origin(const Vec3& position, const Vec3& geometric_normal, const Vec3& direction);
+
+    /// Appends every ray of closest() and transmittance() to `log` from now on; null stops it. For benchmarks: while
+    /// rays are logged, only one thread may trace.
+    void log_rays(std::vector<Ray>* log);
 
   private:
     struct State;

@@ -26,7 +26,8 @@ struct PathTraceImage {
     Image radiance;           // cd/m^2 (or the layer's own unit: lux, albedo, unit vector, metres)
     Image standard_error;     // of each pixel and channel
     int spp = 0;              // spent
-    double relative_error = 0.0;  // the measure of PathTraceSettings::error
+    double relative_error = 0.0;  // the measure of PathTraceSettings::error; < 0: unknown, after a single sample
+    std::uint64_t rays = 0;       // cast
 };
 
 /// A picture. Same inputs and seed, same bytes, for any number of threads (TBB).

@@ -1,0 +1,42 @@
+#include "gi/transport/path_trace/alias_table.h"
+
+#include <algorithm>
+
+namespace daylit {
+
+AliasTable::AliasTable(std::span<const double> weights) {
+    double sum = 0.0;
+    for (const double w : weights) sum += w;
+    if (!(sum > 0.0)) return;
+
+    const std::size_t n = weights.size();
+    slots_.resize(n);
+    probabilities_.resize(n);
+    std::vector<double> scaled(n);
+    std::vector<std::uint32_t> small, large;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        probabilities_[i] = float(weights[i] / sum);
+        scaled[i] = weights[i] / sum * double(n);
+        (scaled[i] < 1.0 ? small : large).push_back(i);
+    }
+    while (!small.empty() && !large.empty()) {
+        const std::uint32_t poor = small.back(), rich = large.back();
+        small.pop_back();
+        slots_[poor] = {float(scaled[poor]), rich};
+        scaled[rich] -= 1.0 - scaled[poor];
+        if (scaled[rich] < 1.0) {
+            large.pop_back();
+            small.push_back(rich);
+        }
+    }
+    for (const auto* rest : {&small, &large})
+        for (const std::uint32_t i : *rest) slots_[i] = {1.0f, i};
+}
+
+std::uint32_t AliasTable::sample(double u) const {
+    const double position = u * double(slots_.size());
+    const auto i = std::min(std::uint32_t(position), std::uint32_t(slots_.size() - 1));
+    return position - double(i) < double(slots_[i].keep) ? i : slots_[i].other;
+}
+
+}  // namespace daylit

@@ -1,0 +1,79 @@
+#include "gi/transport/path_trace/bsdf.h"
+
+#include <cmath>
+
+namespace daylit {
+namespace {
+
+float lobe_share(const glsl::Brdf& brdf) {
+    const float diffuse = luminance(brdf.diffuse), specular = luminance(brdf.specular);
+    return diffuse + specular > 0.0f ? specular / (diffuse + specular) : -1.0f;
+}
+
+}  // namespace
+
+Reflection::Reflection(const glsl::Brdf& brdf, const Vec3& geometric_normal, const Vec3& shading_normal,
+                       const Vec3& view)
+    : brdf_(brdf), geometric_normal_(geometric_normal), shading_normal_(shading_normal),
+      mirror_(glm::reflect(-view, shading_normal)), lobe_chance_(lobe_share(brdf)) {}
+
+Reflection Reflection::irradiance(const Vec3& geometric_normal, const Vec3& shading_normal) {
+    return Reflection({.diffuse = Rgb(kPiF), .specular = Rgb(0.0f), .exponent = 0.0f}, geometric_normal,
+                      shading_normal, shading_normal);
+}
+
+Rgb Reflection::evaluate(const Vec3& light) const {
+    const float cosine = glm::dot(shading_normal_, light);
+    if (cosine <= 0.0f || glm::dot(geometric_normal_, light) <= 0.0f) return Rgb(0.0f);
+    if (lobe_chance_ <= 0.0f) return brdf_.diffuse * (cosine / kPiF);
+    return glsl::evaluate_brdf(brdf_, glm::dot(mirror_, light)) * cosine;
+}
+
+float Reflection::pdf(const Vec3& light) const {
+    if (lobe_chance_ < 0.0f) return 0.0f;
+    const float diffuse = pdf_cosine_hemisphere(glm::dot(shading_normal_, light));
+    if (lobe_chance_ == 0.0f) return diffuse;
+    return glm::mix(diffuse, pdf_phong_lobe(brdf_.exponent, glm::dot(mirror_, light)), lobe_chance_);
+}
+
+std::optional<Reflection::Sample> Reflection::sample(Random& random) const {
+    if (lobe_chance_ < 0.0f) return std::nullopt;
+    const bool lobe = lobe_chance_ > 0.0f && random.next() < lobe_chance_;
+    const float u = random.next(), v = random.next();
+    const Vec3 direction = glm::normalize(
+        lobe ? Frame(mirror_).to_world(sample_phong_lobe(brdf_.exponent, u, v))
+             : Frame(shading_normal_).to_world(sample_cosine_hemisphere(u, v)));
+    if (lobe_chance_ == 0.0f) {
+        const float cosine = glm::dot(shading_normal_, direction);
+        if (cosine <= 0.0f || glm::dot(geometric_normal_, direction) <= 0.0f) return std::nullopt;
+        return Sample{direction, brdf_.diffuse, cosine / kPiF};
+    }
+    const float density = pdf(direction);
+    const Rgb value = evaluate(direction);
+    if (value == Rgb(0.0f) || !(density > 0.0f)) return std::nullopt;
+    return Sample{direction, value / density, density};
+}
+
+float fresnel_dielectric(float cosine, float eta) {
+    const float sin2_far = (1.0f - cosine * cosine) / (eta * eta);
+    if (sin2_far >= 1.0f) return 1.0f;  // total internal reflection
+    const float cos_far = std::sqrt(1.0f - sin2_far);
+    const float parallel = (eta * cosine - cos_far) / (eta * cosine + cos_far);
+    const float perpendicular = (cosine - eta * cos_far) / (cosine + eta * cos_far);
+    return 0.5f * (parallel * parallel + perpendicular * perpendicular);
+}
+
+GlassBounce sample_glass(const Vec3& incoming, const Vec3& normal, float eta, float u) {
+    const float cosine = glm::clamp(-glm::dot(incoming, normal), 0.0f, 1.0f);
+    if (u < fresnel_dielectric(cosine, eta)) return {glm::normalize(glm::reflect(incoming, normal)), false};
+    const float cos_far = std::sqrt(std::max(1.0f - (1.0f - cosine * cosine) / (eta * eta), 0.0f));
+    return {glm::normalize(incoming / eta + normal * (cosine / eta - cos_far)), true};
+}
+
+GlassBounce sample_pane(const Vec3& incoming, const Vec3& normal, float ior, float u) {
+    const float r = fresnel_dielectric(glm::clamp(-glm::dot(incoming, normal), 0.0f, 1.0f), ior);
+    if (u < 2.0f * r / (1.0f + r)) return {glm::normalize(glm::reflect(incoming, normal)), false};
+    return {incoming, true};
+}
+
+}  // namespace daylit

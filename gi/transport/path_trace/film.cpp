@@ -1,0 +1,64 @@
+#include "gi/transport/path_trace/film.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace daylit {
+namespace {
+
+/// Variance of the mean of n samples, from their sum and sum of squares.
+double variance_of_mean(double sum, double squares, double n) {
+    return std::max(squares - sum * sum / n, 0.0) / (n * (n - 1.0));
+}
+
+}  // namespace
+
+Film::Film(int width, int height)
+    : width_(width), height_(height), pixels_(std::size_t(width) * std::size_t(height)) {}
+
+void Film::add(int x, int y, const Rgb& value, std::uint32_t rays) {
+    Pixel& pixel = pixels_[std::size_t(y) * std::size_t(width_) + std::size_t(x)];
+    pixel.rays += rays;
+    if (!std::isfinite(value.r + value.g + value.b)) return;
+    const glm::dvec3 v(value);
+    const double l = luminance(value);
+    pixel.sum += v;
+    pixel.squares += v * v;
+    pixel.luminance += l;
+    pixel.luminance_squares += l * l;
+}
+
+Image Film::mean(int samples) const {
+    Image image(width_, height_);
+    for (std::size_t i = 0; i < pixels_.size(); ++i) image.pixels[i] = Rgb(pixels_[i].sum / double(samples));
+    return image;
+}
+
+Image Film::standard_error(int samples) const {
+    Image image(width_, height_);
+    if (samples < 2) return image;
+    for (std::size_t i = 0; i < pixels_.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            image.pixels[i][c] =
+                float(std::sqrt(variance_of_mean(pixels_[i].sum[c], pixels_[i].squares[c], samples)));
+    return image;
+}
+
+double Film::relative_error(int samples) const {
+    if (samples < 2) return -1.0;
+    double sum = 0.0, variance = 0.0;
+    for (const Pixel& pixel : pixels_) {
+        sum += pixel.luminance / samples;
+        variance += variance_of_mean(pixel.luminance, pixel.luminance_squares, samples);
+    }
+    const double count = double(pixels_.size());
+    return sum > 0.0 ? std::sqrt(variance / count) / (sum / count) : 0.0;
+}
+
+std::uint64_t Film::rays() const {
+    std::uint64_t sum = 0;
+    for (const Pixel& pixel : pixels_) sum += pixel.rays;
+    return sum;
+}
+
+}  // namespace daylit

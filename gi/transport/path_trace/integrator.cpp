@@ -1,0 +1,278 @@
+#include "gi/transport/path_trace/integrator.h"
+
+#include <cmath>
+
+#include "gi/transport/path_trace/panes.h"
+
+namespace daylit {
+namespace {
+
+// Ends that no path meets by chance: glass may keep light for ever (total reflection), so roulette ends that as well.
+constexpr int kGlassEventsBeforeRoulette = 16;
+constexpr int kBouncesBeforeRoulette = 3;
+constexpr float kSurvivalAtMost = 0.95f;
+// Coverage layers and culled faces that a camera ray may cross; more are seen as nothing.
+constexpr int kCameraCrossings = 1000;
+
+float largest(const Rgb& c) {
+    return std::max(c.r, std::max(c.g, c.b));
+}
+
+}  // namespace
+
+/// A path under way. `seen`: all so far is what the camera sees straight or refracted, or nothing.
+struct Integrator::Path {
+    Random& random;
+    Rgb direct = Rgb(0.0f), indirect = Rgb(0.0f);
+    Rgb throughput = Rgb(1.0f);
+    float roulette_scale = 1.0f;  // of throughput at the start
+    bool seen = true;             // no mirror image in glass between the eye and the first surface
+    bool specular = true;         // the last event was the eye or glass: no light sampling competes
+    int segments = 0;             // since the first surface; glass does not count
+    int glass_events = 0;
+    float pdf = 0.0f;             // of the last direction, when not specular
+    std::uint32_t rays = 0;
+
+    /// Light straight from the eye's first surface, or from the sun to it, is direct; what else there is, indirect.
+    void add(const Rgb& light, bool straight) { (straight ? direct : indirect) += throughput * light; }
+};
+
+Integrator::Integrator(const RayScene& rays, const Lighting& lighting, std::span<const PlacedLight> lamps,
+                       const PathTraceSettings& settings)
+    : rays_(rays), settings_(settings), materials_(rays.scene()), lights_(rays, materials_, lighting, lamps),
+      panes_(find_panes(rays.mesh(), materials_)),
+      want_direct_(settings.layer != Layer::Indirect), want_indirect_(settings.layer != Layer::Direct) {}
+
+Integrator::Sample Integrator::camera_sample(const ViewRay& view_ray, Random& random) const {
+    const Ray ray{view_ray.origin, view_ray.direction};
+    Path path{.random = random};
+    const std::optional<FoundSurface> found = first_surface(ray, random, path.rays);
+    switch (settings_.layer) {
+        case Layer::Depth: return {Rgb(found ? found->travelled + found->hit.distance : 0.0f), path.rays};
+        case Layer::Albedo:
+        case Layer::Normal:
+            if (!found) return {Rgb(0.0f), path.rays};
+            return {surface_layer(rays_.surface_point(found->ray, found->hit)), path.rays};
+        case Layer::Irradiance: {
+            if (!found) return {Rgb(0.0f), path.rays};
+            const SurfacePoint point = rays_.surface_point(found->ray, found->hit);
+            path.roulette_scale = kPiF;
+            Ray onward;
+            if (scatter(path, onward, point.position, point.geometric_normal,
+                        Reflection::irradiance(point.geometric_normal, point.shading_normal)))
+                trace(path, onward, std::nullopt);
+            return {path.direct + path.indirect, path.rays};
+        }
+        default: break;
+    }
+    if (found)
+        trace(path, found->ray, found);
+    else
+        add_background(path, ray.direction);
+    Rgb value(0.0f);
+    if (want_direct_) value += path.direct;
+    if (want_indirect_) value += path.indirect;
+    return {value, path.rays};
+}
+
+Integrator::Sample Integrator::irradiance_sample(const SurfaceSample& point, Random& random) const {
+    Path path{.random = random, .roulette_scale = kPiF};
+    Ray onward;
+    if (scatter(path, onward, point.position, point.normal, Reflection::irradiance(point.normal, point.normal)))
+        trace(path, onward, std::nullopt);
+    return {want_direct_ ? path.direct + path.indirect : path.indirect, path.rays};
+}
+
+/// The surface that the camera sees: faces that it would see from behind are passed unless they are double-sided.
+std::optional<Integrator::FoundSurface> Integrator::first_surface(const Ray& camera_ray, Random& random,
+                                                                  std::uint32_t& count) const {
+    FoundSurface found{.hit = {}, .ray = camera_ray};
+    for (int crossing = 0; crossing < kCameraCrossings; ++crossing) {
+        ++count;
+        const std::optional<Hit> hit = rays_.closest(found.ray, random.bits());
+        if (!hit) return std::nullopt;
+        found.hit = *hit;
+        const Material& material = rays_.scene().materials[rays_.mesh().materials[hit->triangle]];
+        if (material.double_sided || glm::dot(found.ray.direction, hit->normal) <= 0.0f) return found;
+        const Vec3 position = found.ray.origin + found.ray.direction * hit->distance;
+        found.ray.origin = RayScene::offset_origin(position, hit->normal, found.ray.direction);
+        found.travelled += hit->distance;
+    }
+    return std::nullopt;
+}
+
+Rgb Integrator::surface_layer(const SurfacePoint& point) const {
+    if (settings_.layer == Layer::Normal) return point.shading_normal * 0.5f + 0.5f;
+    const glsl::Brdf brdf = materials_.brdf(point);
+    return brdf.diffuse + brdf.specular;
+}
+
+/// Follows the path to its end. `found`: the surface that `ray` hits, when it is known.
+void Integrator::trace(Path& path, Ray ray, std::optional<FoundSurface> found) const {
+    for (;;) {
+        std::optional<Hit> hit;
+        if (found) {
+            hit = found->hit;
+            found.reset();
+        } else {
+            ++path.rays;
+            hit = rays_.closest(ray, path.random.bits());
+        }
+        if (!hit) return add_background(path, ray.direction);
+
+        const SurfacePoint point = rays_.surface_point(ray, *hit);
+        if (materials_.emits(point.material)) add_emission(path, ray, *hit, point);
+        if (materials_.glass(point.material)) {
+            pass_glass(path, ray, *hit, point);
+            if (!want_indirect_ && !path.seen) return;
+            if (path.glass_events > kGlassEventsBeforeRoulette && !survives(path)) return;
+            continue;
+        }
+        if (materials_.unlit(point.material)) return;
+        if (path.segments > 0 && path.segments >= settings_.max_bounces) return;
+
+        const Reflection reflection(materials_.brdf(point), point.geometric_normal, point.shading_normal,
+                                    -ray.direction);
+        if (!scatter(path, ray, point.position, point.geometric_normal, reflection)) return;
+        if (path.segments > kBouncesBeforeRoulette && !survives(path)) return;
+    }
+}
+
+/// What a ray finds that leaves the scene: the sky, and a sun's disc.
+void Integrator::add_background(Path& path, const Vec3& direction) const {
+    const bool eye = path.segments == 0 && path.seen;
+    if (!lights_.sky.black()) {
+        const float weight = path.specular ? 1.0f : power_heuristic(path.pdf, lights_.sky.pdf(direction));
+        path.add(lights_.sky.radiance(direction) * weight, eye);
+    }
+    for (const SunDisc& sun : lights_.suns) {
+        if (!sun.contains(direction)) continue;
+        const float weight = path.specular ? 1.0f : power_heuristic(path.pdf, sun.pdf());
+        // Sunlight straight on the first surface, found by the surface's own sampling, is direct as well.
+        path.add(sun.radiance() * weight, eye || (path.segments == 1 && path.seen && !path.specular));
+    }
+}
+
+void Integrator::add_emission(Path& path, const Ray& ray, const Hit& hit, const SurfacePoint& point) const {
+    const Rgb radiance = materials_.emission(point);
+    float weight = 1.0f;
+    if (!path.specular)
+        weight = power_heuristic(
+            path.pdf, lights_.emitters.pdf(hit.triangle, hit.distance, glm::dot(hit.normal, ray.direction)));
+    path.add(radiance * weight, path.segments == 0 && path.seen);
+}
+
+void Integrator::pass_glass(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point) const {
+    const Material& material = rays_.scene().materials[point.material];
+    const bool pane = panes_[hit.triangle];
+    const bool entering = glm::dot(ray.direction, hit.normal) < 0.0f;
+    // A bumped normal that the ray meets from behind would turn reflection into the body.
+    const Vec3 normal =
+        glm::dot(point.shading_normal, ray.direction) < 0.0f ? point.shading_normal : point.geometric_normal;
+    const float eta = entering ? material.ior : 1.0f / material.ior;
+    const float u = path.random.next();
+    GlassBounce bounce = pane ? sample_pane(ray.direction, normal, material.ior, u)
+                              : sample_glass(ray.direction, normal, eta, u);
+    if ((glm::dot(bounce.direction, point.geometric_normal) < 0.0f) != bounce.transmitted)
+        bounce.direction -= 2.0f * glm::dot(bounce.direction, point.geometric_normal) * point.geometric_normal;
+    if (bounce.transmitted) {
+        // A body has two boundaries, each with half of the tint's density.
+        const Rgb tint = materials_.color(point);
+        path.throughput *= pane ? tint : glm::sqrt(tint);
+    } else if (path.segments == 0) {
+        path.seen = false;
+    }
+    ++path.glass_events;
+    path.specular = true;
+    ray = {RayScene::offset_origin(point.position, point.geometric_normal, bounce.direction), bounce.direction};
+}
+
+/// Adds the light that arrives at a surface by light sampling, and draws the next ray. False: the path ends here.
+bool Integrator::scatter(Path& path, Ray& ray, const Vec3& position, const Vec3& geometric_normal,
+                         const Reflection& reflection) const {
+    const bool first = path.segments == 0;
+    const bool ends = path.segments >= settings_.max_bounces;  // only at the first surface, with no bounce at all
+    if (first ? (path.seen ? want_direct_ : want_indirect_) : want_indirect_)
+        add_straight_light(path, position, geometric_normal, reflection);
+    if (want_indirect_ && !ends) add_area_light(path, position, geometric_normal, reflection);
+
+    const std::optional<Reflection::Sample> next = reflection.sample(path.random);
+    if (!next) return false;
+    // The next ray of direct light, or of a path that ends here, can only bring the sun.
+    const bool only_sun = !want_indirect_ || ends;
+    if (only_sun && !sun_in(next->direction)) return false;
+    path.throughput *= next->weight;
+    path.pdf = next->pdf;
+    path.specular = false;
+    ++path.segments;
+    ray = {RayScene::offset_origin(position, geometric_normal, next->direction), next->direction};
+    if (!only_sun) return true;
+    ++path.rays;
+    const float through = rays_.transmittance(ray);
+    if (through > 0.0f) {
+        for (const SunDisc& sun : lights_.suns)
+            if (sun.contains(ray.direction))
+                path.add(sun.radiance() * (through * power_heuristic(path.pdf, sun.pdf())), first && path.seen);
+    }
+    return false;
+}
+
+/// Suns and lamps, one shadow ray a sun and one for all lamps.
+void Integrator::add_straight_light(Path& path, const Vec3& position, const Vec3& geometric_normal,
+                                    const Reflection& reflection) const {
+    const bool direct = path.segments == 0 && path.seen;
+    for (const SunDisc& sun : lights_.suns) {
+        const float u = path.random.next(), v = path.random.next();
+        path.add(shadowed(path, position, geometric_normal, reflection, sun.sample(u, v)), direct);
+    }
+    if (lights_.lamps.empty()) return;
+    if (const std::optional<LightSample> sample = lights_.lamps.sample(position, path.random))
+        path.add(shadowed(path, position, geometric_normal, reflection, *sample), direct);
+}
+
+/// Sky and emissive surfaces, one shadow ray each.
+void Integrator::add_area_light(Path& path, const Vec3& position, const Vec3& geometric_normal,
+                                const Reflection& reflection) const {
+    if (lights_.sky.samplable())
+        path.add(shadowed(path, position, geometric_normal, reflection, lights_.sky.sample(path.random)), false);
+    if (!lights_.emitters.empty())
+        path.add(
+            shadowed(path, position, geometric_normal, reflection, lights_.emitters.sample(position, path.random)),
+            false);
+}
+
+Rgb Integrator::shadowed(Path& path, const Vec3& position, const Vec3& geometric_normal,
+                         const Reflection& reflection, const LightSample& sample) const {
+    if (sample.radiance == Rgb(0.0f)) return Rgb(0.0f);
+    Rgb light = sample.radiance * reflection.evaluate(sample.direction);
+    if (light == Rgb(0.0f)) return light;
+    if (sample.pdf > 0.0f)
+        light *= power_heuristic(sample.pdf, reflection.pdf(sample.direction)) / sample.pdf;
+
+    Ray ray{RayScene::offset_origin(position, geometric_normal, sample.direction), sample.direction};
+    if (sample.distance < 1e30f) {
+        // Both ends stand off their surfaces, so neither the emitter nor the receiver shadows itself.
+        const Vec3 end = position + sample.direction * sample.distance;
+        const Vec3 target =
+            sample.normal == Vec3(0.0f) ? end : RayScene::offset_origin(end, sample.normal, -sample.direction);
+        ray.t_max = std::max(glm::dot(target - ray.origin, sample.direction), 0.0f);
+    }
+    ++path.rays;
+    return light * rays_.transmittance(ray);
+}
+
+bool Integrator::sun_in(const Vec3& direction) const {
+    for (const SunDisc& sun : lights_.suns)
+        if (sun.contains(direction)) return true;
+    return false;
+}
+
+/// Russian roulette by what the path can still bring.
+bool Integrator::survives(Path& path) const {
+    const float chance = std::min(largest(path.throughput) / path.roulette_scale, kSurvivalAtMost);
+    if (!(path.random.next() < chance)) return false;
+    path.throughput /= chance;
+    return true;
+}
+
+}  // namespace daylit

@@ -1,0 +1,128 @@
+#include "gi/transport/path_trace/path_trace.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+
+#include "gi/transport/path_trace/film.h"
+#include "gi/transport/path_trace/integrator.h"
+
+namespace daylit {
+namespace {
+
+/// Counts units of work from many threads, reports the share done and takes the wish to stop.
+class ProgressCounter {
+  public:
+    ProgressCounter(const Progress& progress, double total) : progress_(progress), total_(total) {}
+
+    bool stopped() const { return stopped_.load(std::memory_order_relaxed); }
+    void add(double units) {
+        if (!progress_) return;
+        const std::scoped_lock lock(mutex_);
+        done_ += units;
+        if (!stopped() && !progress_(std::min(done_ / total_, 1.0))) stopped_ = true;
+    }
+    void throw_if_stopped() const {
+        if (stopped()) throw Interrupted{};
+    }
+
+  private:
+    const Progress& progress_;
+    double total_, done_ = 0.0;
+    std::mutex mutex_;
+    std::atomic<bool> stopped_ = false;
+};
+
+constexpr int kTile = 16;  // pixels: small enough to share out, large enough to keep rays together
+
+/// Adds samples first .. first + count - 1 of every pixel. Every pixel belongs to one tile, and its samples are added
+/// in order, so the sums do not depend on the threads.
+void add_round(Film& film, const Integrator& integrator, const View& view, std::uint64_t seed, int first, int count,
+               ProgressCounter& progress) {
+    const int tiles_x = (film.width() + kTile - 1) / kTile, tiles_y = (film.height() + kTile - 1) / kTile;
+    const auto trace_row = [&](int y, int x0, int x1) {
+        for (int x = x0; x < x1; ++x)
+            for (int s = first; s < first + count; ++s) {
+                Random random(seed, std::uint64_t(y) * std::uint64_t(film.width()) + std::uint64_t(x),
+                              std::uint64_t(s));
+                const float px = float(x) + random.next(), py = float(y) + random.next();
+                const ViewRay ray = view_ray(view, px, py, film.width(), film.height());
+                const Integrator::Sample sample = integrator.camera_sample(ray, random);
+                film.add(x, y, sample.value, sample.rays);
+            }
+    };
+    tbb::parallel_for(tbb::blocked_range<int>(0, tiles_x * tiles_y, 1), [&](const tbb::blocked_range<int>& range) {
+        for (int tile = range.begin(); tile != range.end(); ++tile) {
+            const int x0 = tile % tiles_x * kTile, y0 = tile / tiles_x * kTile;
+            const int x1 = std::min(x0 + kTile, film.width()), y1 = std::min(y0 + kTile, film.height());
+            for (int y = y0; y < y1 && !progress.stopped(); ++y) {
+                trace_row(y, x0, x1);
+                progress.add(double(x1 - x0) * count);
+            }
+        }
+    });
+}
+
+/// Samples still to take so that the error falls to the target: it falls with the square root of their number.
+/// At most doubles what there is, since early estimates of the error are rough.
+int next_round(const PathTraceSettings& settings, int spent, double error) {
+    const double needed = double(spent) * (error / settings.error) * (error / settings.error) * 1.02;
+    const int more = error < 0.0 ? spent : int(std::min(std::ceil(needed) - spent, double(spent)));
+    return std::clamp(more, 1, settings.max_spp - spent);
+}
+
+}  // namespace
+
+PathTraceImage path_trace(const RayScene& rays, const Lighting& lighting, std::span<const PlacedLight> lamps,
+                          const View& view, int width, int height, const PathTraceSettings& settings,
+                          const Progress& progress) {
+    const Integrator integrator(rays, lighting, lamps, settings);
+    Film film(width, height);
+    const bool to_error = settings.error > 0.0;
+    int spent = 0;
+    int round = std::clamp(settings.spp, to_error ? 2 : 1, std::max(settings.max_spp, 2));
+    double error = -1.0;
+    while (round > 0) {
+        // The total is known only round by round; each report says how much of what is now foreseen is done.
+        ProgressCounter counter(progress ? [&, spent, round](double done) {
+            return progress((spent + done * round) / double(spent + round));
+        } : Progress{}, double(width) * height * round);
+        add_round(film, integrator, view, settings.seed, spent, round, counter);
+        counter.throw_if_stopped();
+        spent += round;
+        error = film.relative_error(spent);
+        const bool enough = !to_error || (error >= 0.0 && error <= settings.error) || spent >= settings.max_spp;
+        round = enough ? 0 : next_round(settings, spent, error);
+    }
+    return {.radiance = film.mean(spent), .standard_error = film.standard_error(spent), .spp = spent,
+            .relative_error = error, .rays = film.rays()};
+}
+
+std::vector<Rgb> path_trace_irradiance(const RayScene& rays, const Lighting& lighting,
+                                       std::span<const PlacedLight> lamps, std::span<const SurfaceSample> points,
+                                       const PathTraceSettings& settings, const Progress& progress) {
+    PathTraceSettings own = settings;
+    own.layer = settings.layer == Layer::Final ? Layer::Final : Layer::Indirect;
+    const Integrator integrator(rays, lighting, lamps, own);
+    std::vector<Rgb> irradiance(points.size());
+    ProgressCounter counter(progress, double(points.size()));
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 1), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i != range.end() && !counter.stopped(); ++i) {
+            glm::dvec3 sum(0.0);
+            for (int s = 0; s < settings.spp; ++s) {
+                Random random(settings.seed, i, std::uint64_t(s));
+                sum += glm::dvec3(integrator.irradiance_sample(points[i], random).value);
+            }
+            irradiance[i] = Rgb(sum / double(settings.spp));
+            counter.add(1.0);
+        }
+    });
+    counter.throw_if_stopped();
+    return irradiance;
+}
+
+}  // namespace daylit
