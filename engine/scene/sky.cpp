@@ -1,0 +1,187 @@
+// Sun and sky of one hour. The clear sky is atmosphere.h's; this adds clouds, the ground below the horizon and the
+// night, and draws the map.
+//
+// Clouds (share N of the sky covered)   Kasten and Czeplak 1980: global illuminance G = G0 (1 - 0.75 N^3.4), of which
+//     the diffuse share is d0 + (1 - d0) N^2 (their 0.3 + 0.7 N^2, with this sky's own share d0 at N = 0). The clear sky
+//     keeps 1 - N of its radiance; the rest of the diffuse light has the distribution of the overcast sky of Moon and
+//     Spencer 1942, (1 + 2 sin e) / 3, and the colour of the clear global light, for clouds scatter neutrally.
+// Below the horizon                     level ground of albedo 0.2, lit by sun and sky, seen from 20 m through the air
+//     of the ground: at the horizon it is the sky's own colour, so the map has no edge there.
+// Night                                 starlight and airglow, 2.5e-4 cd/m^2 everywhere (Leinert et al. 1998: a
+//     moonless zenith is about 2e-4), 0.8 mlx on open ground. No moon.
+#include "engine/scene/sky.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/scene/atmosphere.h"
+#include "engine/scene/environment.h"
+
+namespace daylit {
+namespace {
+
+constexpr int kMapWidth = 256, kMapHeight = 128;  // the horizon lies between rows 63 and 64
+constexpr float kGroundAlbedo = 0.2f;
+constexpr float kEyeHeight = 20.0f;           // m
+constexpr float kNightRadiance = 2.5e-4f;     // cd/m^2
+constexpr double kAstronomicalNight = -20.0 * kDegree;  // below it the sun adds nothing to the night's own light
+
+struct CloudShares {
+    float sun, clear_sky, global, diffuse;  // of their clear values; diffuse is a share of the clouded global light
+};
+
+CloudShares cloud_shares(double cover, float clear_diffuse_share) {
+    const double global = 1.0 - 0.75 * std::pow(cover, 3.4);
+    return {float(global * (1.0 - cover * cover)), float(1.0 - cover), float(global),
+            float(clear_diffuse_share + (1.0 - clear_diffuse_share) * cover * cover)};
+}
+
+float row_elevation(int row) {
+    return float((0.5 - (row + 0.5) / kMapHeight) * kPi);
+}
+
+float column_bearing(int column) {
+    return float(((column + 0.5) / kMapWidth - 0.5) * 2.0 * kPi);
+}
+
+struct SunState {
+    SunPosition position;
+    float scale;  // 1 / distance^2
+};
+
+SunState sun_state(const Day& day, double hour) {
+    const SunPosition position = sun_position(day, hour);
+    return {position, float(1.0 / (position.distance * position.distance))};
+}
+
+/// The upper half of the map, clear and without the night's light.
+Image clear_map(const Atmosphere& air, const SunState& sun) {
+    Image map(kMapWidth, kMapHeight);
+    if (sun.position.apparent_elevation < kAstronomicalNight) return map;
+    const ClearSky sky = air.clear_sky(sun.position.apparent_elevation);
+    const double sun_bearing = std::atan2(double(sun.position.direction.x), -double(sun.position.direction.z));
+    tbb::parallel_for(0, kMapHeight / 2, [&](int y) {
+        const double elevation = row_elevation(y), quarter = 0.25 * kPi / kMapHeight;
+        for (int x = 0; x < kMapWidth; ++x) {
+            const double azimuth = column_bearing(x) - sun_bearing;
+            map.at(x, y) = 0.5f * sun.scale *
+                           (sky.radiance(elevation - quarter, azimuth) + sky.radiance(elevation + quarter, azimuth));
+        }
+    });
+    return map;
+}
+
+/// Mixes the overcast sky in; global is the clear light on level ground.
+void cover_with_clouds(Image& map, const CloudShares& shares, const Rgb& clear_sky, const Rgb& global) {
+    const float diffuse = shares.global * shares.diffuse * luminance(global);
+    const float from_clouds = std::max(0.0f, diffuse - shares.clear_sky * luminance(clear_sky));
+    // (1 + 2 sin e) / 3 gives 7 pi / 9 of the zenith's radiance as irradiance.
+    const Rgb zenith = luminance(global) > 0.0f ? global * float(from_clouds / luminance(global) * 9.0 / (7.0 * kPi))
+                                                : Rgb(0.0f);
+    for (int y = 0; y < kMapHeight / 2; ++y) {
+        const Rgb overcast = zenith * ((1.0f + 2.0f * std::sin(row_elevation(y))) / 3.0f);
+        for (int x = 0; x < kMapWidth; ++x) map.at(x, y) = shares.clear_sky * map.at(x, y) + overcast;
+    }
+}
+
+/// The lower half: ground under `irradiance` (sun and sky, lux) fading into the horizon's light.
+void draw_ground(Image& map, const Rgb& irradiance, const Rgb& extinction) {
+    const Rgb ground = irradiance * float(kGroundAlbedo / kPi);
+    for (int y = kMapHeight / 2; y < kMapHeight; ++y) {
+        const float distance = kEyeHeight / std::sin(-row_elevation(y));
+        const Rgb through = glm::exp(-extinction * distance);
+        for (int x = 0; x < kMapWidth; ++x) {
+            const Rgb horizon = map.at(x, kMapHeight / 2 - 1);
+            map.at(x, y) = ground * through + horizon * (Rgb(1.0f) - through);
+        }
+    }
+}
+
+std::vector<Sun> scene_suns(const std::vector<PlacedLight>& placed) {
+    std::vector<Sun> suns;
+    for (const PlacedLight& light : placed) {
+        if (light.kind != LightKind::Directional || light.intensity == Rgb(0.0f)) continue;
+        suns.push_back({-light.direction, light.intensity});
+    }
+    return suns;
+}
+
+}  // namespace
+
+struct LightModel::State {
+    LightSettings settings;
+    std::vector<Sun> fixed_suns;           // SunSource other than Day
+    Environment fixed_sky;                 // SkySource other than Day
+    std::unique_ptr<Atmosphere> air;       // where sun or sky follow the day
+
+    State(const LightSettings& wanted, const std::vector<PlacedLight>& placed) : settings(wanted) {
+        if (settings.sun == SunSource::Scene) fixed_suns = scene_suns(placed);
+        if (settings.sun == SunSource::Given && settings.sun_illuminance != Rgb(0.0f)) {
+            fixed_suns = {{glm::normalize(settings.sun_direction), settings.sun_illuminance}};
+        }
+        if (settings.sky == SkySource::File) {
+            fixed_sky = usable_environment(read_image(settings.sky_file), settings.sky_file.string());
+        } else {
+            fixed_sky.map = Image(1, 1, settings.sky == SkySource::Constant ? settings.sky_radiance : Rgb(0.0f));
+        }
+        if (settings.sun == SunSource::Day || settings.sky == SkySource::Day) {
+            air = std::make_unique<Atmosphere>(settings.turbidity);
+        }
+    }
+
+    Rgb clear_sun(const SunState& sun) const {
+        return air->sun_illuminance(sun.position.apparent_elevation) * sun.scale;
+    }
+
+    std::vector<Sun> suns(const SunState& sun) const {
+        if (settings.sun != SunSource::Day) return fixed_suns;
+        const Rgb irradiance = clear_sun(sun) * cloud_shares(settings.clouds, 0.0f).sun;
+        if (luminance(irradiance) <= 0.0f) return {};
+        return {{sun.position.direction, irradiance}};
+    }
+
+    Environment day_sky(const SunState& sun) const {
+        Environment sky{clear_map(*air, sun)};
+        const Rgb from_sky = horizontal_irradiance(sky);
+        const Rgb from_sun = clear_sun(sun) * float(std::max(0.0, std::sin(sun.position.apparent_elevation)));
+        const Rgb global = from_sky + from_sun;
+        const float total = luminance(global);
+        const CloudShares shares = cloud_shares(settings.clouds, total > 0.0f ? luminance(from_sky) / total : 1.0f);
+        if (settings.clouds > 0.0) cover_with_clouds(sky.map, shares, from_sky, global);
+        for (int y = 0; y < kMapHeight / 2; ++y) {
+            for (int x = 0; x < kMapWidth; ++x) sky.map.at(x, y) += kNightRadiance;
+        }
+        const Rgb on_ground = settings.sun == SunSource::Day ? from_sun * shares.sun : Rgb(0.0f);
+        draw_ground(sky.map, horizontal_irradiance(sky) + on_ground, air->ground_extinction());
+        return sky;
+    }
+};
+
+LightModel::LightModel(const LightSettings& settings, std::vector<PlacedLight> placed)
+    : state_(std::make_unique<State>(settings, placed)) {}
+LightModel::~LightModel() = default;
+LightModel::LightModel(LightModel&&) noexcept = default;
+LightModel& LightModel::operator=(LightModel&&) noexcept = default;
+
+const LightSettings& LightModel::settings() const {
+    return state_->settings;
+}
+
+std::vector<Sun> LightModel::suns(double hour) const {
+    if (state_->settings.sun != SunSource::Day) return state_->fixed_suns;
+    return state_->suns(sun_state(state_->settings.day, hour));
+}
+
+Lighting LightModel::at(double hour) const {
+    if (constant()) return {state_->fixed_suns, state_->fixed_sky};
+    const SunState sun = sun_state(state_->settings.day, hour);
+    return {state_->suns(sun), state_->settings.sky == SkySource::Day ? state_->day_sky(sun) : state_->fixed_sky};
+}
+
+bool LightModel::constant() const {
+    return state_->settings.sun != SunSource::Day && state_->settings.sky != SkySource::Day;
+}
+
+}  // namespace daylit
