@@ -1,5 +1,6 @@
 #pragma once
 // Floating-point images in memory, and reading and writing them through OpenImageIO.
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -43,6 +44,9 @@ Image read_image(const std::filesystem::path& path);
 /// Reads an 8-bit texture from a file or from bytes in memory (PNG, JPEG, ...). `name` stands in error messages.
 Image8 read_image8(const std::filesystem::path& path);
 Image8 read_image8(std::span<const std::uint8_t> bytes, const std::string& name);
+
+/// Width and height that an encoded image declares; reads no pixel. throws as read_image8.
+std::array<int, 2> declared_image_size(std::span<const std::uint8_t> bytes, const std::string& name);
 
 /// Writes by extension: .exr linear 32-bit float, .png 8-bit after `encode_srgb` of values in [0,1] (display-referred
 /// input). Whole file or nothing: a temporary beside the target, then rename. `comment` goes into the header.

@@ -1,0 +1,105 @@
+#pragma once
+// A glTF file between parsing and Scene: tinygltf's model, the images' encoded bytes, and what the converters of
+// gltf_*.cpp share. Only those files include this one.
+#include <tiny_gltf.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/base/error.h"
+#include "engine/scene/scene.h"
+
+namespace daylit::gltf {
+
+struct File {
+    std::filesystem::path path;
+    tinygltf::Model model;
+    std::vector<std::vector<std::uint8_t>> image_bytes;  // one per model.images; empty when it could not be found
+    float unit = 1.0f;                                   // metres per file unit
+    bool lambert = false;
+    std::vector<std::string> notes;
+    std::uint64_t decoded_bytes = 0;  // charged so far
+    std::uint64_t buffer_bytes = 0;   // of all buffers together
+
+    [[noreturn]] void fail(const std::string& place, const std::string& message) const {
+        throw Error(path.string(), place + " " + message);
+    }
+    void note(const std::string& place, const std::string& message) { notes.push_back(place + " " + message); }
+
+    /// Counts memory about to be taken for decoded data; fails when it is out of proportion to the file.
+    void charge(std::uint64_t bytes, const std::string& place);
+    /// A JSON number as a float; fails when it is beyond a float's range.
+    float number(double value, const std::string& place) const;
+    bool uses(const std::string& extension) const;
+};
+
+/// "node 3 'door'", for messages.
+std::string place(const char* kind, std::size_t index, const std::string& name = {});
+
+template <typename T>
+bool in_range(int index, const std::vector<T>& vector) {
+    return index >= 0 && std::size_t(index) < vector.size();
+}
+
+// --- gltf_check.cpp: what tinygltf takes on trust. GLB framing, JSON types and required properties, sizes of buffers
+// and of image views. Fails for what cannot be read safely, notes what is only odd.
+struct Document {
+    bool binary = false;
+};
+Document check_document(std::span<const std::uint8_t> bytes, File& file);
+
+// --- gltf_document.cpp: bytes to File. Framing, JSON types, buffers; refuses unsupported required extensions.
+File open(const std::filesystem::path& path);
+
+// --- gltf_accessor.cpp: every read is checked against the buffer first, in 64-bit arithmetic that cannot overflow.
+struct AccessorShape {
+    std::size_t count = 0;
+    int components = 0;      // 1 to 16
+    int component_type = 0;  // TINYGLTF_COMPONENT_TYPE_*
+    bool normalized = false;
+};
+/// Checks everything that the accessor declares: views, buffers, strides, alignment, sparse parts, decoded size.
+AccessorShape check_accessor(const File& file, int accessor, const std::string& place);
+
+/// Elements as floats, components side by side: all of them, or those named by `elements` (each below count, in any
+/// order). Integers are converted by glTF's rules when normalised, else as they are. Fails on NaN and infinity.
+std::vector<float> read_floats(File& file, int accessor, const std::string& place);
+std::vector<float> read_floats(File& file, int accessor, std::span<const std::uint32_t> elements,
+                               const std::string& place);
+/// Elements of an integer accessor, components side by side.
+std::vector<std::uint32_t> read_integers(File& file, int accessor, const std::string& place);
+std::vector<std::uint32_t> read_integers(File& file, int accessor, std::span<const std::uint32_t> elements,
+                                         const std::string& place);
+
+/// Regroups a flat array.
+template <typename Vector>
+std::vector<Vector> grouped(const std::vector<float>& flat) {
+    constexpr int n = Vector::length();
+    std::vector<Vector> vectors(flat.size() / n);
+    for (std::size_t i = 0; i < vectors.size(); ++i)
+        for (int c = 0; c < n; ++c) vectors[i][c] = flat[i * n + std::size_t(c)];
+    return vectors;
+}
+
+// --- gltf_material.cpp, gltf_image.cpp
+void read_materials(File& file, Scene& scene);
+/// Reads the images that materials use (in parallel) and renumbers textures and images to those.
+void read_textures(File& file, Scene& scene);
+
+// --- gltf_mesh.cpp
+void read_meshes(File& file, Scene& scene);
+
+// --- gltf_node.cpp: the tree, cameras, lights, skins, instances, extras.daylit
+SceneExtras read_extras(File& file);
+void read_nodes(File& file, Scene& scene);
+/// What only the whole scene shows: joints against skins, placed sizes, dynamic nodes.
+void check_placement(File& file, Scene& scene);
+
+// --- gltf_animation.cpp
+void read_animations(File& file, Scene& scene);
+
+}  // namespace daylit::gltf
