@@ -8,7 +8,7 @@ namespace {
 constexpr double kMinUnit = 1e-6, kMaxUnit = 1e6;
 
 double metres_per_unit(const gltf::File& file, const LoadOptions& options, const SceneExtras& extras) {
-    const double unit = options.unit > 0 ? options.unit : extras.unit.value_or(1.0);
+    const double unit = options.unit != 0 ? options.unit : extras.unit.value_or(1.0);
     if (!(unit >= kMinUnit && unit <= kMaxUnit))
         file.fail("unit", "is " + std::to_string(unit) + " metres; it must lie between 1e-6 and 1e6");
     return unit;
