@@ -108,7 +108,7 @@ constexpr double kOzoneCentre = 25e3, kOzoneHalfWidth = 15e3;        // a tent, 
 constexpr double kOzonePeak = 300.0 * 2.687e20 / kOzoneHalfWidth;    // molecules/m^3 for 300 Dobson units
 constexpr double kAngstromExponent = 1.3;
 constexpr double kAerosolAlbedo = 0.93;    // share of extinction that scatters; continental haze
-constexpr double kAerosolAsymmetry = 0.75;  // mean cosine of the phase function
+constexpr double kAerosolAsymmetry = 0.65;  // g of the phase function below; its mean cosine is then 0.71
 
 /// Densities relative to sea level (ozone: to its peak), or columns of them in metres.
 struct Densities {
