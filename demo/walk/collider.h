@@ -18,8 +18,8 @@ struct Capsule {
 };
 
 struct Contact {
-    float depth = 0.0f;           // metres that the capsule reaches into the triangle
-    Vec3 away = Vec3(0, 1, 0);    // unit, from the triangle to the capsule's axis: the shortest way out
+    float depth = 0.0f;         // metres that the capsule reaches into the triangle
+    Vec3 away = Vec3(0, 1, 0);  // unit, from the triangle to the capsule's axis: the shortest way out
 };
 
 /// Immutable. Triangles block from both sides; those of zero area or with numbers that are not finite are left out.

@@ -8,22 +8,26 @@
 namespace daylit {
 namespace {
 
-constexpr float kGravity = 9.81f;         // m/s^2
-constexpr float kWalkSpeed = 2.2f;        // m/s
+constexpr float kGravity = 9.81f;   // m/s^2
+constexpr float kWalkSpeed = 2.2f;  // m/s
 constexpr float kRunSpeed = 5.5f;
 constexpr float kFlySpeed = 4.0f;
 constexpr float kFastFlySpeed = 16.0f;
-constexpr float kJumpSpeed = 4.2f;        // carries 0.9 m up
-constexpr float kFallLimit = 50.0f;       // m/s
-constexpr float kStartUpTime = 0.08f;     // seconds to come near the speed asked for
+constexpr float kJumpSpeed = 4.2f;     // carries 0.9 m up
+constexpr float kFallLimit = 50.0f;    // m/s
+constexpr float kStartUpTime = 0.08f;  // seconds to come near the speed asked for
 constexpr float kAirControlTime = 0.6f;
-constexpr float kStepSmoothing = 0.09f;   // seconds in which the camera follows the feet
-constexpr float kStorey = 4.0f;           // metres
-constexpr float kSkin = 0.001f;           // kept clear of walls
+constexpr float kStepSmoothing = 0.09f;  // seconds in which the camera follows the feet
+constexpr float kStorey = 4.0f;          // metres
+constexpr float kSkin = 0.001f;          // kept clear of walls
 constexpr int kPushes = 8;
 
-Vec3 ahead(float yaw) { return {-std::sin(yaw), 0, -std::cos(yaw)}; }
-Vec3 to_the_right(float yaw) { return {std::cos(yaw), 0, -std::sin(yaw)}; }
+Vec3 ahead(float yaw) {
+    return {-std::sin(yaw), 0, -std::cos(yaw)};
+}
+Vec3 to_the_right(float yaw) {
+    return {std::cos(yaw), 0, -std::sin(yaw)};
+}
 
 Vec3 limited(const Vec3& v) {
     const float length = glm::length(v);
@@ -31,11 +35,15 @@ Vec3 limited(const Vec3& v) {
 }
 
 /// Share of the way to a goal that a lag with this time constant covers in `seconds`.
-float approach(float seconds, float time) { return 1.0f - std::exp(-seconds / time); }
+float approach(float seconds, float time) {
+    return 1.0f - std::exp(-seconds / time);
+}
 
 }  // namespace
 
-Walker::Walker(const Collider& level, const Vec3& eye) : level_(level) { place(eye); }
+Walker::Walker(const Collider& level, const Vec3& eye) : level_(level) {
+    place(eye);
+}
 
 void Walker::place(const Vec3& eye) {
     start_ = eye;
@@ -56,7 +64,9 @@ void Walker::fly(bool on) {
     on_floor_ = false;
 }
 
-Vec3 Walker::eye() const { return feet_ + Vec3(0, shape_.eye - eye_lag_, 0); }
+Vec3 Walker::eye() const {
+    return feet_ + Vec3(0, shape_.eye - eye_lag_, 0);
+}
 
 Capsule Walker::capsule(const Vec3& feet) const {
     const float bottom = shape_.step + shape_.radius, top = shape_.stature - shape_.radius;
@@ -73,16 +83,15 @@ void Walker::advance(const Steering& steering, float seconds) {
 // Through walls: flying is for looking at things from where nobody can stand.
 void Walker::advance_flight(const Steering& steering, float seconds) {
     const Vec3 gaze = ahead(steering.yaw) * std::cos(steering.pitch) + Vec3(0, std::sin(steering.pitch), 0);
-    const Vec3 wish = limited(gaze * steering.move.z + to_the_right(steering.yaw) * steering.move.x +
-                              Vec3(0, steering.move.y, 0));
+    const Vec3 wish =
+        limited(gaze * steering.move.z + to_the_right(steering.yaw) * steering.move.x + Vec3(0, steering.move.y, 0));
     const Vec3 goal = wish * (steering.run ? kFastFlySpeed : kFlySpeed);
     velocity_ += (goal - velocity_) * approach(seconds, kStartUpTime);
     feet_ += velocity_ * seconds;
 }
 
 void Walker::advance_walk(const Steering& steering, float seconds) {
-    const Vec3 wish =
-        limited(ahead(steering.yaw) * steering.move.z + to_the_right(steering.yaw) * steering.move.x);
+    const Vec3 wish = limited(ahead(steering.yaw) * steering.move.z + to_the_right(steering.yaw) * steering.move.x);
     const Vec3 goal = wish * (steering.run ? kRunSpeed : kWalkSpeed);
     const float share = approach(seconds, on_floor_ ? kStartUpTime : kAirControlTime);
     velocity_.x += (goal.x - velocity_.x) * share;

@@ -14,10 +14,10 @@ struct Steering {
 };
 
 struct WalkerShape {
-    float radius = 0.28f;      // metres
-    float stature = 1.75f;     // crown over feet
-    float eye = 1.62f;         // over feet
-    float step = 0.4f;         // what feet climb without a jump
+    float radius = 0.28f;   // metres
+    float stature = 1.75f;  // crown over feet
+    float eye = 1.62f;      // over feet
+    float step = 0.4f;      // what feet climb without a jump
 };
 
 class Walker {

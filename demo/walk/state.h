@@ -1,0 +1,52 @@
+#pragma once
+// What the keys and the panel change, as plain data; the loop acts on it once a frame.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "demo/walk/gaze.h"
+#include "engine/render/renderer.h"
+
+namespace daylit {
+
+struct WalkState {
+    // Time of day
+    double hour = 12.0;
+    bool playing = false;
+    float hours_per_second = 0.5f;
+    LightSettings light;
+
+    // What is shown
+    Layer show = Layer::Final;
+    bool auto_exposure = true;
+    float ev = 12.0f;           // EV100 of this frame: adapting, or as set by hand
+    float compensation = 0.0f;  // stops brighter than metered, auto exposure only
+    bool animate = true;
+
+    // The camera
+    Gaze gaze;
+    bool flying = false;
+    std::vector<Bookmark> bookmarks;  // the scene's cameras, then the walker's own
+
+    // The window
+    bool panel = true;
+    bool help = false;
+    bool pass_times = false;  // the panel's table is open, so passes are timed
+    std::string message;      // last thing that happened, one line or a shader log
+
+    // Wishes, fulfilled and cleared by the loop
+    std::optional<std::size_t> go_to;
+    bool add_bookmark = false;
+    bool screenshot = false;
+    bool reload_shaders = false;
+    bool toggle_flight = false;
+    bool jump = false;
+    bool quit = false;
+};
+
+/// "07:30"; 24:00 is 00:00.
+std::string clock_text(double hour);
+/// Any real hour to [0,24).
+double wrapped_hour(double hour);
+
+}  // namespace daylit
