@@ -251,11 +251,15 @@ Rgb Integrator::shadowed(Path& path, const Vec3& position, const Vec3& geometric
 
     Ray ray{RayScene::offset_origin(position, geometric_normal, sample.direction), sample.direction};
     if (sample.distance < 1e30f) {
-        // Both ends stand off their surfaces, so neither the emitter nor the receiver shadows itself.
+        // Both ends stand off their surfaces and the ray is aimed anew from one to the other: neither end shadows
+        // itself, however flat the ray.
         const Vec3 end = position + sample.direction * sample.distance;
         const Vec3 target =
             sample.normal == Vec3(0.0f) ? end : RayScene::offset_origin(end, sample.normal, -sample.direction);
-        ray.t_max = std::max(glm::dot(target - ray.origin, sample.direction), 0.0f);
+        const Vec3 way = target - ray.origin;
+        ray.t_max = glm::length(way);
+        if (!(ray.t_max > 0.0f)) return light;
+        ray.direction = way / ray.t_max;
     }
     ++path.rays;
     return light * rays_.transmittance(ray);

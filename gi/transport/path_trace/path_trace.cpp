@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 #include <mutex>
+#include <utility>
 
 #include "gi/transport/path_trace/film.h"
 #include "gi/transport/path_trace/integrator.h"
@@ -17,7 +18,7 @@ namespace {
 /// Counts units of work from many threads, reports the share done and takes the wish to stop.
 class ProgressCounter {
   public:
-    ProgressCounter(const Progress& progress, double total) : progress_(progress), total_(total) {}
+    ProgressCounter(Progress progress, double total) : progress_(std::move(progress)), total_(total) {}
 
     bool stopped() const { return stopped_.load(std::memory_order_relaxed); }
     void add(double units) {
@@ -31,7 +32,7 @@ class ProgressCounter {
     }
 
   private:
-    const Progress& progress_;
+    const Progress progress_;
     double total_, done_ = 0.0;
     std::mutex mutex_;
     std::atomic<bool> stopped_ = false;
