@@ -215,9 +215,11 @@ void File::charge(std::uint64_t bytes, const std::string& where) {
         fail(where, "asks for far more data than the file holds");
 }
 
-AccessorShape check_accessor(const File& file, int index, const std::string& place) {
+AccessorShape check_accessor(File& file, int index, const std::string& place) {
     if (!in_range(index, file.model.accessors))
         file.fail(place, "refers to accessor " + std::to_string(index) + ", which does not exist");
+    file.used_accessors.resize(file.model.accessors.size(), false);
+    file.used_accessors[std::size_t(index)] = true;
     const tinygltf::Accessor& accessor = file.model.accessors[std::size_t(index)];
     AccessorShape shape;
     shape.count = accessor.count;

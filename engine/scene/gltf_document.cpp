@@ -26,10 +26,6 @@ constexpr std::array<const char*, 11> kSupported = {"KHR_lights_punctual",
                                                     "EXT_mesh_gpu_instancing",
                                                     "EXT_texture_webp"};
 
-bool is_supported(const std::string& extension) {
-    return std::any_of(kSupported.begin(), kSupported.end(), [&](const char* name) { return extension == name; });
-}
-
 bool file_exists(const std::string& path, void*) {
     std::error_code ignored;
     return std::filesystem::is_regular_file(path, ignored);
@@ -57,6 +53,28 @@ bool keep_image_bytes(tinygltf::Image*, const int index, std::string*, std::stri
     return true;
 }
 
+void note_ignored_extensions(File& file) {
+    std::vector<std::string> named = file.model.extensionsUsed;
+    std::sort(named.begin(), named.end());
+    named.erase(std::unique(named.begin(), named.end()), named.end());
+    for (const std::string& extension : named)
+        if (!is_supported(extension)) file.note("extension " + one_line(extension), "is optional and ignored");
+}
+
+void check_version(File& file) {
+    const tinygltf::Asset& asset = file.model.asset;
+    if (!asset.version.starts_with("2."))
+        file.fail("asset", "is glTF version '" + one_line(asset.version) + "'; only 2.x is read, convert it");
+    if (!asset.minVersion.empty() && asset.minVersion != "2.0")
+        file.note("asset", "asks for at least version " + one_line(asset.minVersion) + "; read as 2.0");
+}
+
+}  // namespace
+
+bool is_supported(const std::string& extension) {
+    return std::any_of(kSupported.begin(), kSupported.end(), [&](const char* name) { return extension == name; });
+}
+
 std::string one_line(std::string text) {
     while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
     for (char& c : text)
@@ -65,27 +83,6 @@ std::string one_line(std::string text) {
     if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
     return text;
 }
-
-void check_extensions(File& file) {
-    for (const std::string& extension : file.model.extensionsRequired)
-        if (!is_supported(extension))
-            file.fail("extension " + extension, "is required by the file and not supported; export without it");
-    std::vector<std::string> named = file.model.extensionsUsed;
-    std::sort(named.begin(), named.end());
-    named.erase(std::unique(named.begin(), named.end()), named.end());
-    for (const std::string& extension : named)
-        if (!is_supported(extension)) file.note("extension " + extension, "is optional and ignored");
-}
-
-void check_version(const File& file) {
-    const std::string& needed = file.model.asset.minVersion.empty() ? file.model.asset.version : file.model.asset.minVersion;
-    if (!needed.starts_with("2."))
-        file.fail("asset", "is glTF version '" + one_line(needed) + "'; only 2.x is read, convert it");
-    if (!file.model.asset.minVersion.empty() && needed != "2.0")
-        file.fail("asset", "needs at least glTF version " + one_line(needed) + "; 2.0 is read");
-}
-
-}  // namespace
 
 float File::number(double value, const std::string& where) const {
     const float number = float(value);
@@ -122,7 +119,7 @@ File open(const std::filesystem::path& path) {
     file.image_bytes.resize(file.model.images.size());
     for (const tinygltf::Buffer& buffer : file.model.buffers) file.buffer_bytes += buffer.data.size();
     check_version(file);
-    check_extensions(file);
+    note_ignored_extensions(file);
     return file;
 }
 

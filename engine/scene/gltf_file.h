@@ -22,6 +22,7 @@ struct File {
     float unit = 1.0f;                                   // metres per file unit
     bool lambert = false;
     std::vector<std::string> notes;
+    std::vector<bool> used_accessors;  // that check_accessor has seen
     std::uint64_t decoded_bytes = 0;  // charged so far
     std::uint64_t buffer_bytes = 0;   // of all buffers together
 
@@ -40,6 +41,9 @@ struct File {
 /// "node 3 'door'", for messages.
 std::string place(const char* kind, std::size_t index, const std::string& name = {});
 
+/// Control characters and length tamed: what others' messages and a stranger's names need.
+std::string one_line(std::string text);
+
 template <typename T>
 bool in_range(int index, const std::vector<T>& vector) {
     return index >= 0 && std::size_t(index) < vector.size();
@@ -47,6 +51,7 @@ bool in_range(int index, const std::vector<T>& vector) {
 
 // --- gltf_check.cpp: what tinygltf takes on trust. GLB framing, JSON types and required properties, sizes of buffers
 // and of image views. Fails for what cannot be read safely, notes what is only odd.
+bool is_supported(const std::string& extension);
 struct Document {
     bool binary = false;
 };
@@ -63,7 +68,7 @@ struct AccessorShape {
     bool normalized = false;
 };
 /// Checks everything that the accessor declares: views, buffers, strides, alignment, sparse parts, decoded size.
-AccessorShape check_accessor(const File& file, int accessor, const std::string& place);
+AccessorShape check_accessor(File& file, int accessor, const std::string& place);
 
 /// Elements as floats, components side by side: all of them, or those named by `elements` (each below count, in any
 /// order). Integers are converted by glTF's rules when normalised, else as they are. Fails on NaN and infinity.
@@ -96,7 +101,7 @@ void read_meshes(File& file, Scene& scene);
 // --- gltf_node.cpp: the tree, cameras, lights, skins, instances, extras.daylit
 SceneExtras read_extras(File& file);
 void read_nodes(File& file, Scene& scene);
-/// What only the whole scene shows: joints against skins, placed sizes, dynamic nodes.
+/// What only the whole scene shows: joints against skins, placed sizes, dynamic nodes, accessors of no use.
 void check_placement(File& file, Scene& scene);
 
 // --- gltf_animation.cpp

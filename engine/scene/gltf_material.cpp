@@ -10,7 +10,7 @@ namespace {
 
 using tinygltf::Value;
 
-/// Reads of one JSON object of an extension, with defaults for what is absent or of another type.
+/// Reads of one JSON object of an extension, with defaults for what is absent.
 class Extension {
   public:
     Extension(const File& file, const tinygltf::ExtensionMap& extensions, const char* name, std::string place)
@@ -22,24 +22,28 @@ class Extension {
     bool has(const char* key) const { return value_ && value_->Has(key); }
 
     float number(const char* key, float otherwise) const {
-        if (!has(key) || !value_->Get(key).IsNumber()) return otherwise;
+        if (!has(key)) return otherwise;
+        if (!value_->Get(key).IsNumber()) file_.fail(place_ + " " + key, "must be a number");
         return file_.number(value_->Get(key).GetNumberAsDouble(), place_ + " " + key);
     }
     template <int N>
     glm::vec<N, float> numbers(const char* key, glm::vec<N, float> otherwise) const {
         if (!has(key)) return otherwise;
         const Value& array = value_->Get(key);
-        if (!array.IsArray() || array.ArrayLen() != std::size_t(N)) return otherwise;
-        for (int i = 0; i < N; ++i)
-            if (array.Get(i).IsNumber())
-                otherwise[i] = file_.number(array.Get(i).GetNumberAsDouble(), place_ + " " + key);
+        const std::string where = place_ + " " + key;
+        if (!array.IsArray() || array.ArrayLen() != std::size_t(N)) file_.fail(where, "must be an array of " + std::to_string(N));
+        for (int i = 0; i < N; ++i) {
+            if (!array.Get(i).IsNumber()) file_.fail(where, "must hold numbers");
+            otherwise[i] = file_.number(array.Get(i).GetNumberAsDouble(), where);
+        }
         return otherwise;
     }
     /// A textureInfo object inside the extension.
     tinygltf::TextureInfo texture(const char* key) const {
         tinygltf::TextureInfo info;
-        if (!has(key) || !value_->Get(key).IsObject()) return info;
+        if (!has(key)) return info;
         const Value& object = value_->Get(key);
+        if (!object.IsObject() || !object.Get("index").IsInt()) file_.fail(place_ + " " + key, "must name a texture");
         const auto integer = [&](const char* name, int otherwise) {
             return object.Has(name) && object.Get(name).IsInt() ? object.Get(name).GetNumberAsInt() : otherwise;
         };

@@ -72,6 +72,15 @@ std::vector<float> read_attribute(const Source& source, int accessor, Format for
     return read_floats(source.file, accessor, source.elements, where);
 }
 
+/// Of its component type; to OpenGL it may mean primitive restart.
+std::uint32_t largest_index(const AccessorShape& shape) {
+    switch (shape.component_type) {
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return 0xff;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return 0xffff;
+        default: return 0xffffffff;
+    }
+}
+
 Indices read_indices(Source& source) {
     if (source.in.indices == -1) {
         source.file.charge(source.vertices * sizeof(std::uint32_t), source.place);
@@ -80,12 +89,15 @@ Indices read_indices(Source& source) {
         return all;
     }
     const std::string where = source.place + " indices";
-    if (check_accessor(source.file, source.in.indices, where).components != 1)
-        source.file.fail(where, "must be scalars");
+    const AccessorShape shape = check_accessor(source.file, source.in.indices, where);
+    if (shape.components != 1) source.file.fail(where, "must be scalars");
+    const std::uint32_t restart = largest_index(shape);
     Indices indices = read_integers(source.file, source.in.indices, where);
-    for (const std::uint32_t index : indices)
+    for (const std::uint32_t index : indices) {
         if (index >= source.vertices)
             source.file.fail(where, "refer to vertex " + std::to_string(index) + " of " + std::to_string(source.vertices));
+        if (index == restart) source.file.fail(where, "use the primitive restart value, which glTF forbids");
+    }
     return indices;
 }
 

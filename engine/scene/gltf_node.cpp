@@ -270,6 +270,8 @@ void read_skins(File& file, Scene& scene) {
             for (std::size_t j = 0; j < skin.joints.size(); ++j) {
                 Mat4& matrix = skin.joint_from_mesh[j];
                 for (std::size_t i = 0; i < 16; ++i) matrix[int(i / 4)][int(i % 4)] = values[16 * j + i];
+                if (matrix[0][3] != 0 || matrix[1][3] != 0 || matrix[2][3] != 0 || matrix[3][3] != 1)
+                    file.note(at, "hold a matrix that is not affine; its last row is taken as 0, 0, 0, 1");
                 matrix[0][3] = matrix[1][3] = matrix[2][3] = 0.0f;
                 matrix[3] = Vec4(Vec3(matrix[3]) * file.unit, 1.0f);
             }
@@ -367,6 +369,15 @@ void check_extent(const File& file, const Scene& scene) {
     }
 }
 
+void note_unused_accessors(File& file) {
+    file.used_accessors.resize(file.model.accessors.size(), false);
+    const auto unused = std::count(file.used_accessors.begin(), file.used_accessors.end(), false);
+    if (unused == 0) return;
+    const auto first = std::find(file.used_accessors.begin(), file.used_accessors.end(), false) - file.used_accessors.begin();
+    file.note("file", "has " + std::to_string(unused) + " accessors of no use (the first is " + std::to_string(first) +
+                          "); not read");
+}
+
 }  // namespace
 
 SceneExtras read_extras(File& file) {
@@ -422,6 +433,7 @@ void check_placement(File& file, Scene& scene) {
     mark_dynamic(scene);
     check_counts(file, scene);
     check_extent(file, scene);
+    note_unused_accessors(file);
 }
 
 }  // namespace daylit::gltf
