@@ -1,0 +1,8 @@
+#version 450 core
+// One triangle over the whole target, at the far plane (reversed depth: 0).
+layout(location = 0) out vec2 v_ndc;
+
+void main() {
+    v_ndc = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+    gl_Position = vec4(v_ndc, 0.0, 1.0);
+}

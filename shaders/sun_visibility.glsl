@@ -1,0 +1,130 @@
+// Share of a sun's disc that a point sees, from the cascades of shadow maps.
+//
+// Most pixels lie nowhere near a penumbra. A pyramid of the least and greatest depth (sun_range) bounds the height of
+// any blocker above the point, hence how far sideways it can stand and still cover part of the disc; a few steps down
+// the pyramid shrink that reach until it is below a texel, or the whole reach is covered. Only what is left is filtered
+// with many taps: blocker search and filter of Fernando 2005, but the kernel is the true disc, and only blockers inside
+// the cone towards the disc count.
+//
+// Depths are compared with the receiver's own plane at the very texel that was fetched, so no slope bias is needed.
+layout(binding = 5) uniform sampler2DArray sun_depth;  // nearest, share of the depth range
+layout(binding = 6) uniform sampler2DArray sun_range;  // mip k: least, greatest over a block of 4 * 2^k and its neighbours
+#ifdef BLEND_CASTERS
+layout(binding = 7) uniform sampler2DArray sun_veil;   // rgb: what BLEND casters let through; a: depth of the first
+#endif
+
+struct SunReceiver {
+    vec2 texel;     // in texels of the map
+    float depth;    // metres
+    vec2 gradient;  // of the receiver's plane: metres of depth per texel
+    float size;     // texel in metres
+    float scale;    // metres of the stored range
+    int layer;
+};
+
+// Lit share of the four texels around a place, bilinear; depth is the plane's at that place.
+float lit_bilinear(SunReceiver r, vec2 offset, float slack) {
+    vec2 place = r.texel + offset;
+    vec2 base = floor(place - 0.5);
+    vec2 f = place - 0.5 - base;
+    vec4 z = textureGather(sun_depth, vec3((base + 1.0) / frame.counts.z, float(r.layer))) * r.scale;
+    vec4 dx = vec4(0.0, 1.0, 1.0, 0.0) - f.x + offset.x;
+    vec4 dy = vec4(1.0, 1.0, 0.0, 0.0) - f.y + offset.y;
+    vec4 lit = step(r.depth + r.gradient.x * dx + r.gradient.y * dy - slack, z);
+    vec2 rows = mix(lit.wx, lit.zy, f.x);
+    return mix(rows.x, rows.y, f.y);
+}
+
+// Interleaved gradient noise (Jimenez 2014): neighbouring pixels turn the taps differently.
+float tap_rotation() {
+    return 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+}
+
+// Vogel's spiral: n points of equal area on the unit disc.
+vec2 disc_point(int i, int n, float turn) {
+    float angle = float(i) * 2.3999632 + turn;
+    return sqrt((float(i) + 0.5) / float(n)) * vec2(cos(angle), sin(angle));
+}
+
+const int kSearchTaps = SHADOW_TAPS;
+const int kFilterTaps = SHADOW_TAPS;
+
+float lit_penumbra(SunReceiver r, float reach, float slack) {
+    float turn = tap_rotation();
+    float spread = frame.target.z / r.size;  // texels of disc radius per metre of height
+    float heights = 0.0, blockers = 0.0;
+    for (int i = 0; i < kSearchTaps; ++i) {
+        ivec2 at = ivec2(r.texel + disc_point(i, kSearchTaps, turn) * reach);
+        vec2 offset = vec2(at) + 0.5 - r.texel;
+        float z = texelFetch(sun_depth, ivec3(at, r.layer), 0).r * r.scale;
+        float height = r.depth + dot(r.gradient, offset) - z;
+        if (height > slack && length(offset) - 1.0 <= spread * height) {
+            heights += height;
+            blockers += 1.0;
+        }
+    }
+    if (blockers == 0.0) return lit_bilinear(r, vec2(0.0), slack);
+    float height = heights / blockers;
+    float radius = max(spread * height, 0.5);
+    // What stands much lower than the blockers (a wall that rises beside the point) does not belong to this penumbra.
+    float floor_height = max(slack, 0.1 * height);
+    float lit = 0.0;
+    for (int i = 0; i < kFilterTaps; ++i)
+        lit += lit_bilinear(r, disc_point(i, kFilterTaps, turn) * radius, floor_height);
+    return lit / float(kFilterTaps);
+}
+
+// position: world; normal: of the face, turned to the side that is seen. Zero when that side turns away from the sun.
+vec3 sun_visibility(int sun, vec3 position, vec3 normal) {
+    float facing = dot(normal, frame.suns[sun].direction.xyz);
+    if (facing <= 0.0) return vec3(0.0);
+    vec2 across = vec2(dot(frame.suns[sun].axis_x.xyz, position), dot(frame.suns[sun].axis_y.xyz, position));
+    int cascades = int(frame.suns[sun].radiance.w);
+    int layer = -1;
+    for (int c = cascades - 1; c >= 0; --c) {
+        vec4 cascade = frame.cascades[sun * kMaxCascades + c];
+        vec2 away = abs(across - cascade.xy);
+        if (max(away.x, away.y) < cascade.w) layer = c;
+    }
+    if (layer < 0) return vec3(1.0);
+    vec4 cascade = frame.cascades[sun * kMaxCascades + layer];
+
+    SunReceiver r;
+    r.layer = int(frame.suns[sun].axis_x.w) + layer;
+    r.size = cascade.z;
+    r.scale = frame.suns[sun].irradiance.w;
+    r.texel = (across - cascade.xy) / r.size + 0.5 * frame.counts.z;
+    r.depth = frame.suns[sun].direction.w - dot(frame.suns[sun].direction.xyz, position);
+    vec2 slope = vec2(dot(normal, frame.suns[sun].axis_x.xyz), dot(normal, frame.suns[sun].axis_y.xyz)) /
+                 max(facing, 0.02);
+    r.gradient = slope * r.size;
+    float steepness = length(slope);
+
+    // Rounding of positions and of the rasteriser's sub-texel grid, felt more on steep planes.
+    float slack = 2.0e-4 + 1.0e-5 * r.depth + r.size * (0.05 + 0.1 * steepness);
+    float narrowing = frame.target.z / max(1.0 - frame.target.z * steepness, 0.5);
+
+    float reach = narrowing * r.depth / r.size;  // texels; no blocker stands higher than depth 0
+    float lit = -1.0;
+    for (int step = 0; step < 3 && reach > 0.75; ++step) {
+        // Blocks as wide as the reach: with its neighbours a block holds the whole kernel, and nothing beyond two blocks.
+        int mip = clamp(int(ceil(log2(reach))) - 2, 0, textureQueryLevels(sun_range) - 1);
+        vec2 range = texelFetch(sun_range, ivec3(ivec2(r.texel) >> (mip + 2), r.layer), mip).rg * r.scale;
+        if (r.depth - steepness * r.size * 2.0 * exp2(float(mip + 2)) - range.y > slack) {
+            lit = 0.0;
+            break;
+        }
+        float closer = narrowing * max(r.depth - range.x, 0.0) / r.size;
+        if (closer > 0.7 * reach) {
+            reach = min(reach, closer);
+            break;
+        }
+        reach = closer;
+    }
+    if (lit < 0.0) lit = reach > 0.75 ? lit_penumbra(r, reach, slack) : lit_bilinear(r, vec2(0.0), slack);
+#ifdef BLEND_CASTERS
+    vec4 veil = texture(sun_veil, vec3(r.texel / frame.counts.z, float(r.layer)));
+    if (veil.a < r.depth - slack - 0.01) return lit * veil.rgb;
+#endif
+    return vec3(lit);
+}
