@@ -20,6 +20,8 @@ struct FrameSettings {
     Layer show = Layer::Final;
     std::optional<double> ev;  // EV100; none: auto exposure
     bool meter = false;        // fill FrameReport::metered_ev though ev is given (the walk's eye adapts slowly to it)
+    int samples_per_side = 1;  // of each pixel, box-filtered; 2 and more also fetch textures and shadows more finely
+    bool cull = true;      // false draws also what the view cannot see, to judge what culling saves
     bool timings = false;  // glFinish around every pass, fills PassReport::milliseconds
 };
 
@@ -50,7 +52,7 @@ class Renderer {
     /// Moves dynamic nodes (and everything else whose matrices changed).
     void set_pose(const Pose& pose);
 
-    /// Draws into an internal linear RGBA16F target (kept until the next draw).
+    /// Draws into an internal linear RGBA32F target (kept until the next draw).
     FrameReport draw(const FrameSettings& frame);
     /// Scene-referred radiance (or the layer's own unit) of the last draw, row 0 on top.
     Image read_radiance() const;

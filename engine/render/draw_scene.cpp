@@ -1,0 +1,146 @@
+#include "engine/render/draw_scene.h"
+
+#include <algorithm>
+
+namespace daylit {
+namespace {
+
+const Frustum kEverything{{}, 0};
+
+void cull_faces(bool on) {
+    if (on) glEnable(GL_CULL_FACE);
+    else glDisable(GL_CULL_FACE);
+}
+
+}  // namespace
+
+void DrawCount::add(const DrawList& list) {
+    draws += list.empty() ? 0 : 1;
+    triangles += list.triangles;
+    clusters_drawn += list.clusters_drawn;
+    clusters_culled += list.clusters_culled;
+}
+
+void DrawCount::add(const DrawCount& other) {
+    draws += other.draws;
+    triangles += other.triangles;
+    clusters_drawn += other.clusters_drawn;
+    clusters_culled += other.clusters_culled;
+}
+
+void bind_texture(GLuint unit, GLuint texture) {
+    glBindTextureUnit(unit, texture);
+    glBindSampler(unit, 0);
+}
+
+void DrawScene::add_visible(const Geometry& geometry, const Batch& batch, const Frustum& frustum,
+                            DrawList& list) const {
+    geometry.add_visible(batch, cull ? frustum : kEverything, list);
+}
+
+bool DrawScene::moved_in(const Frustum& frustum, std::uint64_t since) const {
+    if (since == version) return false;
+    if (since + 1 != version) return true;
+    return std::any_of(moved.begin(), moved.end(), [&](const Bounds& box) { return may_see(frustum, box); });
+}
+
+DrawCount DrawScene::draw_coverage(const Mat4& clip_from_world, const Frustum& frustum, bool for_light) {
+    DrawCount count;
+    for (const std::optional<Geometry>& part : parts) {
+        if (!part) continue;
+        part->bind();
+        // Whole faces first, in as few calls as there are culling states; then those with holes, one a material.
+        DrawList whole[2];
+        for (const Batch& batch : part->mesh().batches) {
+            const Coverage kind = coverage(material(batch));
+            if (kind == Coverage::Mask || (kind == Coverage::Through && (!for_light || veils(material(batch))))) continue;
+            const bool culled = !for_light && !material(batch).double_sided;
+            add_visible(*part, batch, frustum, whole[culled ? 1 : 0]);
+        }
+        for (int culled = 0; culled < 2; ++culled) {
+            if (whole[culled].empty()) continue;
+            const Program& program = programs.get("depth.vert", "depth.frag");
+            program.use();
+            program.set("clip_from_world", clip_from_world);
+            cull_faces(culled == 1);
+            Geometry::draw(whole[culled]);
+        }
+        count.add(whole[0]);
+        count.add(whole[1]);
+        for (const Batch& batch : part->mesh().batches) {
+            if (coverage(material(batch)) != Coverage::Mask) continue;
+            DrawList list;
+            add_visible(*part, batch, frustum, list);
+            count.add(list);
+            if (list.empty()) continue;
+            std::vector<std::string> defines = coverage_defines(material(batch), batch.vertex_colors);
+            defines.push_back("MASK");
+            const Program& program = programs.get("depth.vert", "depth.frag", defines);
+            program.use();
+            program.set("clip_from_world", clip_from_world);
+            materials->bind_coverage(batch.material);
+            cull_faces(!for_light && !material(batch).double_sided);
+            Geometry::draw(list);
+        }
+    }
+    cull_faces(false);
+    return count;
+}
+
+DrawCount DrawScene::draw_casters(const Mat4& clip_from_world, const Frustum& frustum) {
+    return draw_coverage(clip_from_world, frustum, true);
+}
+
+DrawCount DrawScene::draw_depth(const Mat4& clip_from_world, const Frustum& frustum) {
+    return draw_coverage(clip_from_world, frustum, false);
+}
+
+DrawCount DrawScene::draw_veils(const Mat4& clip_from_world, const Frustum& frustum, float depth_scale) {
+    DrawCount count;
+    for (const std::optional<Geometry>& part : parts) {
+        if (!part) continue;
+        part->bind();
+        for (const Batch& batch : part->mesh().batches) {
+            if (!veils(material(batch))) continue;
+            DrawList list;
+            add_visible(*part, batch, frustum, list);
+            count.add(list);
+            if (list.empty()) continue;
+            std::vector<std::string> defines = coverage_defines(material(batch), batch.vertex_colors);
+            defines.push_back("VEIL");
+            const Program& program = programs.get("depth.vert", "depth.frag", defines);
+            program.use();
+            program.set("clip_from_world", clip_from_world);
+            program.set("depth_scale", depth_scale);
+            materials->bind_coverage(batch.material);
+            Geometry::draw(list);
+        }
+    }
+    return count;
+}
+
+DrawCount DrawScene::draw_surfaces(const FrameDefines& frame_defines, const Frustum& frustum) {
+    DrawCount count;
+    for (std::size_t p = 0; p < 2; ++p) {
+        const std::optional<Geometry>& part = parts[p];
+        if (!part) continue;
+        part->bind();
+        for (const Batch& batch : part->mesh().batches) {
+            if (coverage(material(batch)) == Coverage::Through) continue;
+            DrawList list;
+            add_visible(*part, batch, frustum, list);
+            count.add(list);
+            if (list.empty()) continue;
+            std::vector<std::string> defines = surface_defines(material(batch), batch.vertex_colors);
+            defines.insert(defines.end(), frame_defines[p].begin(), frame_defines[p].end());
+            programs.get("surface.vert", "surface.frag", defines).use();
+            materials->bind(batch.material);
+            cull_faces(!material(batch).double_sided);
+            Geometry::draw(list);
+        }
+    }
+    cull_faces(false);
+    return count;
+}
+
+}  // namespace daylit

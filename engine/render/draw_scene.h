@@ -1,0 +1,60 @@
+#pragma once
+// What every pass draws: the geometry that stands and the geometry that moves, their materials, and the programs.
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "engine/render/geometry.h"
+#include "engine/render/materials.h"
+#include "engine/render/programs.h"
+
+namespace daylit {
+
+/// What one pass cost, for the FrameReport.
+struct DrawCount {
+    int draws = 0;  // GL calls
+    long triangles = 0;
+    int clusters_drawn = 0, clusters_culled = 0;
+    void add(const DrawList& list);
+    void add(const DrawCount& other);
+};
+
+/// What the frame asks of every surface program, for the part that stands and the part that moves.
+using FrameDefines = std::array<std::vector<std::string>, 2>;
+
+/// Binds a texture with its own filters, in place of a material's sampler.
+void bind_texture(GLuint unit, GLuint texture);
+
+struct DrawScene {
+    explicit DrawScene(const Scene& s) : scene(s) {}
+
+    const Scene& scene;
+    Programs programs;
+    std::optional<Materials> materials;
+    std::optional<Geometry> parts[2];  // what stands, what moves; empty when there is none
+    Bounds box;                        // of both
+    bool any_veils = false, any_through = false;
+    bool cull = true;           // clusters; false draws everything, to judge what culling saves
+    std::uint64_t version = 0;  // one more whenever a triangle has moved
+    std::vector<Bounds> moved;  // where those were and are that moved from the version before to this one
+
+    const Material& material(const Batch& batch) const { return scene.materials[batch.material]; }
+
+    /// True when something inside the frustum may differ from what it was at `since`.
+    bool moved_in(const Frustum& frustum, std::uint64_t since) const;
+
+    /// Depth of everything that blocks light (OPAQUE, MASK and glass), both sides of every face.
+    DrawCount draw_casters(const Mat4& clip_from_world, const Frustum& frustum);
+    /// What BLEND casters let through, into a colour target; depth_scale is what a depth of 1 means.
+    DrawCount draw_veils(const Mat4& clip_from_world, const Frustum& frustum, float depth_scale);
+    /// Depth of what the camera sees, faces that turn away culled unless double-sided.
+    DrawCount draw_depth(const Mat4& clip_from_world, const Frustum& frustum);
+    /// Shaded OPAQUE and MASK surfaces as the camera sees them; `frame_defines` on top of the material's own.
+    DrawCount draw_surfaces(const FrameDefines& frame_defines, const Frustum& frustum);
+
+  private:
+    DrawCount draw_coverage(const Mat4& clip_from_world, const Frustum& frustum, bool for_light);
+    void add_visible(const Geometry& geometry, const Batch& batch, const Frustum& frustum, DrawList& list) const;
+};
+
+}  // namespace daylit

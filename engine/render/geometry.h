@@ -1,0 +1,42 @@
+#pragma once
+// A DrawMesh on the GPU, and drawing the part of it that a view can see.
+#include "engine/gl/owners.h"
+#include "engine/render/culling.h"
+#include "engine/render/draw_mesh.h"
+
+namespace daylit {
+
+/// Index ranges to draw, neighbouring clusters joined.
+struct DrawList {
+    std::vector<GLsizei> counts;
+    std::vector<const void*> offsets;
+    int clusters_drawn = 0, clusters_culled = 0;
+    long triangles = 0;
+    bool empty() const { return counts.empty(); }
+    void clear() { *this = {}; }
+};
+
+class Geometry {
+  public:
+    /// moves   the mesh will be changed by move()
+    Geometry(DrawMesh mesh, bool moves);
+
+    const DrawMesh& mesh() const { return mesh_; }
+    /// The same triangles elsewhere; returns as move_draw_mesh().
+    std::vector<Bounds> move(const WorldMesh& moved);
+
+    /// Adds the batch's clusters that the frustum may see.
+    void add_visible(const Batch& batch, const Frustum& frustum, DrawList& list) const;
+    void bind() const { glBindVertexArray(vertex_array_.get()); }
+    /// Other indices over the same vertices, until the next call; 0: the mesh's own.
+    void use_indices(GLuint buffer) const;
+    /// bind() first.
+    static void draw(const DrawList& list);
+
+  private:
+    DrawMesh mesh_;
+    GlBuffer positions_, attributes_, indices_;
+    GlVertexArray vertex_array_;
+};
+
+}  // namespace daylit

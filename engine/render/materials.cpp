@@ -1,0 +1,165 @@
+#include "engine/render/materials.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "engine/gl/target.h"
+#include "shaders/shared/frame_block.h"
+
+namespace daylit {
+namespace {
+
+constexpr GLenum kMaxTextureMaxAnisotropy = 0x84FF, kTextureMaxAnisotropy = 0x84FE;  // EXT_texture_filter_anisotropic
+
+std::array<const TextureRef*, 4> slots(const Material& m) {
+    return {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.emission_texture};
+}
+
+glsl::MaterialBlock block(const Material& m) {
+    const float f0 = std::pow((m.ior - 1.0f) / (m.ior + 1.0f), 2.0f);
+    glsl::MaterialBlock b{};
+    b.base_color = m.base_color;
+    b.emission = Vec4(m.emission, m.alpha_cutoff);
+    b.metal_rough = Vec4(m.metallic, m.roughness, m.normal_scale, m.transmission);
+    b.dielectric = Vec4(glm::min(f0 * m.specular * m.specular_color, Vec3(1.0f)), m.ior);
+    const auto refs = slots(m);
+    for (std::size_t i = 0; i < refs.size(); ++i) {
+        const std::array<float, 6>& t = refs[i]->transform;
+        b.transforms[2 * i] = Vec4(t[0], t[1], t[2], 0.0f);
+        b.transforms[2 * i + 1] = Vec4(t[3], t[4], t[5], 0.0f);
+        b.uv_sets[glm::length_t(i)] = float(refs[i]->uv_set);
+    }
+    return b;
+}
+
+GLenum wrap(Wrap mode) {
+    return mode == Wrap::Repeat ? GL_REPEAT : mode == Wrap::Mirror ? GL_MIRRORED_REPEAT : GL_CLAMP_TO_EDGE;
+}
+
+GlSampler sampler(const Texture& texture) {
+    GlSampler s = make_sampler();
+    const bool nearest = texture.filter == Filter::Nearest;
+    glSamplerParameteri(s.get(), GL_TEXTURE_WRAP_S, GLint(wrap(texture.wrap_s)));
+    glSamplerParameteri(s.get(), GL_TEXTURE_WRAP_T, GLint(wrap(texture.wrap_t)));
+    glSamplerParameteri(s.get(), GL_TEXTURE_MIN_FILTER, nearest ? GL_NEAREST_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
+    glSamplerParameteri(s.get(), GL_TEXTURE_MAG_FILTER, nearest ? GL_NEAREST : GL_LINEAR);
+    return s;
+}
+
+GlTexture upload(const Image8& image, bool srgb) {
+    GlTexture texture = make_texture_2d(srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, image.width, image.height, 0);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTextureSubImage2D(texture.get(), 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                        image.rgba.data());
+    glGenerateTextureMipmap(texture.get());
+    return texture;
+}
+
+bool has_extension(const char* name) {
+    GLint count = 0;
+    glGetIntegerv(GL_NUM_EXTENSIONS, &count);
+    for (GLint i = 0; i < count; ++i)
+        if (!std::strcmp(reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, GLuint(i))), name)) return true;
+    return false;
+}
+
+void add_uv_defines(std::vector<std::string>& defines, std::initializer_list<const TextureRef*> refs) {
+    bool textured = false, second = false, transform = false;
+    for (const TextureRef* ref : refs) {
+        if (ref->texture < 0) continue;
+        textured = true;
+        second |= ref->uv_set == 1;
+        transform |= ref->has_transform();
+    }
+    if (textured) defines.push_back("TEXTURED");
+    if (second) defines.push_back("SECOND_UV");
+    if (transform) defines.push_back("TEXTURE_TRANSFORM");
+}
+
+}  // namespace
+
+Coverage coverage(const Material& m) {
+    if (m.alpha_mode == AlphaMode::Blend || m.transmission > 0.0f) return Coverage::Through;
+    return m.alpha_mode == AlphaMode::Mask ? Coverage::Mask : Coverage::Opaque;
+}
+
+bool veils(const Material& m) { return m.alpha_mode == AlphaMode::Blend; }
+
+std::vector<std::string> surface_defines(const Material& m, bool vertex_colors) {
+    std::vector<std::string> defines;
+    const char* names[] = {"BASE_COLOR_TEXTURE", "METAL_ROUGH_TEXTURE", "NORMAL_TEXTURE", "EMISSION_TEXTURE"};
+    const auto refs = slots(m);
+    for (std::size_t i = 0; i < refs.size(); ++i)
+        if (refs[i]->texture >= 0) defines.push_back(names[i]);
+    add_uv_defines(defines, {refs[0], refs[1], refs[2], refs[3]});
+    if (vertex_colors) defines.push_back("VERTEX_COLOR");
+    if (m.alpha_mode == AlphaMode::Mask) defines.push_back("MASK");
+    if (m.alpha_mode == AlphaMode::Blend) defines.push_back("BLEND");
+    if (m.transmission > 0.0f) defines.push_back("GLASS");
+    if (coverage(m) == Coverage::Through) defines.push_back("THROUGH");
+    if (m.unlit) defines.push_back("UNLIT");
+    return defines;
+}
+
+std::vector<std::string> coverage_defines(const Material& m, bool vertex_colors) {
+    std::vector<std::string> defines;
+    if (m.base_color_texture.texture >= 0) defines.push_back("BASE_COLOR_TEXTURE");
+    add_uv_defines(defines, {&m.base_color_texture});
+    if (vertex_colors) defines.push_back("VERTEX_COLOR");
+    return defines;
+}
+
+Materials::Materials(const Scene& scene, const std::vector<bool>& used) : scene_(scene) {
+    GLint alignment = 256;
+    glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
+    stride_ = (GLintptr(sizeof(glsl::MaterialBlock)) + alignment - 1) / alignment * alignment;
+    std::vector<std::byte> bytes(std::size_t(stride_) * scene.materials.size());
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const glsl::MaterialBlock b = block(scene.materials[i]);
+        std::memcpy(bytes.data() + std::size_t(stride_) * i, &b, sizeof b);
+        if (!used[i]) continue;
+        const auto refs = slots(scene.materials[i]);
+        for (std::size_t slot = 0; slot < refs.size(); ++slot) add_texture(*refs[slot], slot == 0 || slot == 3);
+    }
+    blocks_ = make_buffer(bytes);
+    for (const Texture& texture : scene.textures) samplers_.push_back(sampler(texture));
+    if (has_extension("GL_EXT_texture_filter_anisotropic"))
+        glGetFloatv(kMaxTextureMaxAnisotropy, &largest_anisotropy_);
+}
+
+void Materials::add_texture(const TextureRef& ref, bool srgb) {
+    if (ref.texture < 0) return;
+    const std::pair<int, bool> key(scene_.textures[std::size_t(ref.texture)].image, srgb);
+    if (textures_.count(key)) return;
+    const Image8& image = scene_.images[std::size_t(key.first)];
+    textures_.emplace(key, upload(image, srgb));
+    texture_bytes_ += image.rgba.size() * 4 / 3;
+}
+
+void Materials::bind_texture(GLuint unit, const TextureRef& ref, bool srgb) const {
+    if (ref.texture < 0) return;
+    const auto index = std::size_t(ref.texture);
+    glBindTextureUnit(unit, textures_.at({scene_.textures[index].image, srgb}).get());
+    glBindSampler(unit, samplers_[index].get());
+}
+
+void Materials::bind(std::uint32_t material) const {
+    glBindBufferRange(GL_UNIFORM_BUFFER, 1, blocks_.get(), GLintptr(material) * stride_, sizeof(glsl::MaterialBlock));
+    const auto refs = slots(scene_.materials[material]);
+    for (GLuint i = 0; i < refs.size(); ++i) bind_texture(i, *refs[i], i == 0 || i == 3);
+}
+
+void Materials::bind_coverage(std::uint32_t material) const {
+    glBindBufferRange(GL_UNIFORM_BUFFER, 1, blocks_.get(), GLintptr(material) * stride_, sizeof(glsl::MaterialBlock));
+    bind_texture(0, scene_.materials[material].base_color_texture, true);
+}
+
+void Materials::set_anisotropy(float taps) {
+    taps = std::clamp(taps, 1.0f, largest_anisotropy_);
+    if (taps == anisotropy_) return;
+    anisotropy_ = taps;
+    for (const GlSampler& s : samplers_) glSamplerParameterf(s.get(), kTextureMaxAnisotropy, taps);
+}
+
+}  // namespace daylit

@@ -1,0 +1,359 @@
+#include "engine/render/renderer.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "engine/gl/target.h"
+#include "engine/render/baked_light.h"
+#include "engine/render/blend_pass.h"
+#include "engine/render/display.h"
+#include "engine/render/frame_plan.h"
+#include "engine/render/lamp_shadow.h"
+#include "engine/render/sky_pass.h"
+#include "engine/render/sun_shadow.h"
+
+namespace daylit {
+namespace {
+
+constexpr int kSunTexels = 2048;
+constexpr int kFineSunTexels = 4096;  // pictures with several samples a pixel
+
+/// GL state that passes rely on, set for the time of a draw: reversed depth in [0, 1], as projection() makes it.
+class DrawState {
+  public:
+    DrawState() {
+        glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+        glEnable(GL_DEPTH_TEST);
+        glDepthFunc(GL_GREATER);
+        glDepthMask(GL_TRUE);
+        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+        glFrontFace(GL_CCW);
+        glCullFace(GL_BACK);
+        glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+        for (const GLenum off : {GL_CULL_FACE, GL_BLEND, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_FRAMEBUFFER_SRGB})
+            glDisable(off);
+        glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+    }
+    ~DrawState() {
+        glDisable(GL_DEPTH_TEST);
+        glDepthFunc(GL_LESS);
+        glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+        glBindVertexArray(0);
+        glUseProgram(0);
+        for (GLuint unit = 0; unit < 4; ++unit) glBindSampler(unit, 0);
+    }
+    DrawState(const DrawState&) = delete;
+    DrawState& operator=(const DrawState&) = delete;
+};
+
+std::vector<bool> used_materials(const Scene& scene, const WorldMesh& a, const WorldMesh& b) {
+    std::vector<bool> used(scene.materials.size());
+    for (const WorldMesh* mesh : {&a, &b})
+        for (const std::uint32_t material : mesh->materials) used[material] = true;
+    return used;
+}
+
+const char* show_define(Layer layer) {
+    switch (layer) {
+        case Layer::Final: return "SHOW_FINAL";
+        case Layer::Direct: return "SHOW_DIRECT";
+        case Layer::Indirect: return "SHOW_INDIRECT";
+        case Layer::Irradiance: return "SHOW_IRRADIANCE";
+        case Layer::Albedo: return "SHOW_ALBEDO";
+        case Layer::Normal: return "SHOW_NORMAL";
+        case Layer::Depth: return "SHOW_DEPTH";
+        case Layer::Lightmap: return "SHOW_LIGHTMAP";
+        default: return "SHOW_OTHER";  // parts that are not baked yet are black
+    }
+}
+
+}  // namespace
+
+struct Renderer::State {
+    State(const Scene& s, const Baked* b) : scene(s), baked(b), draw(s) {}
+
+    const Scene& scene;
+    const Baked* baked;
+    Pose pose;
+    std::vector<PlacedLight> lamps;
+    Lighting lighting;
+
+    DrawScene draw;
+    std::optional<BakedLight> baked_light;
+    SunShadow sun_shadow;
+    LampShadow lamp_shadow;
+    SkyPass sky;
+    BlendPass blend;
+    CameraTarget target;
+    GlBuffer frame_buffer;
+    GlVertexArray no_attributes;  // for full-screen triangles
+    Layer shown = Layer::Final;
+    double ev = 0.0;
+
+    // Poses.
+    bool part_moved(const Pose& to, bool dynamic) const;
+    void build_static(const WorldMesh& mesh);
+    void find_bounds();
+
+    // Frames.
+    FrameFacts facts(const FrameSettings& frame);
+    glsl::FrameBlock frame_block(const FrameSettings& frame) const;
+    std::vector<std::string> frame_defines(Layer show, bool standing) const;
+};
+
+namespace {
+
+/// Runs a pass of the plan and writes what it did.
+class PassRunner {
+  public:
+    PassRunner(const FramePlan& plan, FrameReport& report, bool timings)
+        : plan_(plan), report_(report), timings_(timings) {}
+
+    template <typename Work>
+    void run(PassKind kind, Work&& work) {
+        const PassPlan& plan = plan_[std::size_t(kind)];
+        PassReport pass;
+        pass.name = name(kind);
+        pass.ran = plan.runs;
+        pass.why = plan.why;
+        if (plan.runs) {
+            if (timings_) glFinish();
+            const auto start = std::chrono::steady_clock::now();
+            const DrawCount count = work();
+            if (timings_) {
+                glFinish();
+                const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
+                pass.milliseconds = spent.count();
+            }
+            pass.draws = count.draws;
+            pass.triangles = count.triangles;
+            if (kind == PassKind::Surfaces) {
+                report_.objects_drawn = count.clusters_drawn;
+                report_.objects_culled = count.clusters_culled;
+            }
+        }
+        report_.passes.push_back(std::move(pass));
+    }
+
+  private:
+    const FramePlan& plan_;
+    FrameReport& report_;
+    bool timings_;
+};
+
+}  // namespace
+
+// --- poses -----------------------------------------------------------------------------------------------------------
+
+bool Renderer::State::part_moved(const Pose& to, bool dynamic) const {
+    if (pose.world_from_node.empty()) return true;
+    for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
+        if (scene.nodes[n].dynamic != dynamic) continue;
+        if (pose.world_from_node[n] != to.world_from_node[n] || pose.morph_weights[n] != to.morph_weights[n]) return true;
+    }
+    return false;
+}
+
+void Renderer::State::build_static(const WorldMesh& mesh) {
+    const DayLightmap* lightmap = baked && baked->lightmap ? &*baked->lightmap : nullptr;
+    if (lightmap && lightmap->corner_uvs.size() != mesh.indices.size())
+        throw Error("lightmap", "it has coordinates for " + std::to_string(lightmap->corner_uvs.size() / 3) +
+                                    " triangles, but the scene has " + std::to_string(mesh.triangle_count()) +
+                                    " that stand; bake this scene again");
+    draw.parts[0].reset();
+    if (mesh.triangle_count() > 0) draw.parts[0].emplace(build_draw_mesh(mesh, lightmap, false), false);
+}
+
+void Renderer::State::find_bounds() {
+    draw.box = {};
+    for (const std::optional<Geometry>& part : draw.parts) {
+        if (!part) continue;
+        for (const Cluster& cluster : part->mesh().clusters) {
+            draw.box.add(cluster.bounds.min);
+            draw.box.add(cluster.bounds.max);
+        }
+    }
+}
+
+Renderer::Renderer(const Scene& scene, const Baked* baked) : state_(std::make_unique<State>(scene, baked)) {
+    State& s = *state_;
+    s.frame_buffer = make_buffer(std::vector<glsl::FrameBlock>(1), GL_DYNAMIC_STORAGE_BIT);
+    s.no_attributes = make_vertex_array();
+    if (baked && baked->lightmap) s.baked_light.emplace(*baked->lightmap);
+    s.sky.set_environment({});
+    set_pose(pose_scene(scene));
+}
+
+Renderer::~Renderer() = default;
+
+void Renderer::set_pose(const Pose& pose) {
+    State& s = *state_;
+    const bool first = s.pose.world_from_node.empty();
+    const bool standing = s.part_moved(pose, false), moving = s.part_moved(pose, true);
+    s.lamps = placed_lights(s.scene, pose);
+    s.pose = pose;
+    if (!standing && !moving) return;
+
+    if (first) {
+        const WorldMesh still = world_mesh(s.scene, pose, Part::Static), dynamic = world_mesh(s.scene, pose, Part::Dynamic);
+        s.draw.materials.emplace(s.scene, used_materials(s.scene, still, dynamic));
+        s.build_static(still);
+        if (dynamic.triangle_count() > 0) s.draw.parts[1].emplace(build_draw_mesh(dynamic, nullptr, true), true);
+        for (const std::optional<Geometry>& part : s.draw.parts)
+            for (std::size_t i = 0; part && i < part->mesh().batches.size(); ++i) {
+                const Material& material = s.draw.material(part->mesh().batches[i]);
+                s.draw.any_veils |= veils(material);
+                s.draw.any_through |= coverage(material) == Coverage::Through;
+            }
+        s.draw.moved.clear();
+        s.draw.version += 2;  // everything is new
+    } else {
+        s.draw.moved.clear();
+        if (moving && s.draw.parts[1]) s.draw.moved = s.draw.parts[1]->move(world_mesh(s.scene, pose, Part::Dynamic));
+        if (standing) s.build_static(world_mesh(s.scene, pose, Part::Static));
+        s.draw.version += standing ? 2 : s.draw.moved.empty() ? 0 : 1;
+    }
+    s.find_bounds();
+}
+
+void Renderer::set_lighting(const Lighting& lighting) {
+    state_->lighting.suns = lighting.suns;
+    if (state_->lighting.suns.size() > glsl::kMaxSuns) state_->lighting.suns.resize(glsl::kMaxSuns);
+    state_->sky.set_environment(lighting.sky);
+}
+
+// --- frames ----------------------------------------------------------------------------------------------------------
+
+FrameFacts Renderer::State::facts(const FrameSettings& frame) {
+    FrameFacts f;
+    f.show = frame.show;
+    f.baked = baked_light.has_value();
+    f.baked_stale = f.baked && baked_light->stale(frame.hour);
+    f.suns = lighting.suns.size();
+    f.any_surface = draw.parts[0] || draw.parts[1];
+    if (shows_straight_light(frame.show)) {
+        f.sun_maps_stale = sun_shadow.plan(lighting.suns, draw, frame.view.eye,
+                                           frame.samples_per_side > 1 ? kFineSunTexels : kSunTexels);
+        f.lamp_maps_stale = lamp_shadow.plan(lamps, draw);
+        f.lamps = lamp_shadow.lamp_count();
+    }
+    f.any_through = draw.any_through;
+    f.depth_first = shows_straight_light(frame.show);
+    f.sky_black = sky.black();
+    f.samples_per_side = frame.samples_per_side;
+    f.meter = !frame.ev || frame.meter;
+    return f;
+}
+
+glsl::FrameBlock Renderer::State::frame_block(const FrameSettings& frame) const {
+    glsl::FrameBlock block{};
+    const View& view = frame.view;
+    const int samples = frame.samples_per_side;
+    block.clip_from_world = projection(view, frame.width, frame.height) * view.view_from_world;
+    block.world_from_clip = glm::inverse(block.clip_from_world);
+    const Mat4& m = view.view_from_world;
+    const float span = view.orthographic ? 0.0f : 2.0f * std::tan(0.5f * view.vertical_fov);
+    block.eye = Vec4(view.eye, view.orthographic ? 1.0f : 0.0f);
+    block.forward = Vec4(-Vec3(m[0][2], m[1][2], m[2][2]), std::max(span / float(frame.height * samples), 1.0e-6f));
+    block.target = Vec4(frame.width * samples, frame.height * samples, std::tan(kSunRadius), std::cos(kSunRadius));
+    return block;
+}
+
+std::vector<std::string> Renderer::State::frame_defines(Layer show, bool standing) const {
+    std::vector<std::string> defines = {show_define(show)};
+    if (shows_straight_light(show)) {
+        if (!lighting.suns.empty()) {
+            defines.push_back("SUNS " + std::to_string(lighting.suns.size()));
+            defines.push_back("SHADOW_TAPS 16");
+            if (draw.any_veils) defines.push_back("BLEND_CASTERS");
+        }
+        if (lamp_shadow.lamp_count() > 0) defines.push_back("LAMPS");
+    }
+    if (standing && baked_light && shows_baked_light(show)) defines.push_back("LIGHTMAP");
+    return defines;
+}
+
+FrameReport Renderer::draw(const FrameSettings& frame) {
+    State& s = *state_;
+    const DrawState draw_state;
+    FrameReport report;
+    s.shown = frame.show;
+    s.target.resize(frame.width, frame.height, frame.samples_per_side);
+    s.draw.cull = frame.cull;
+    s.draw.materials->set_anisotropy(frame.samples_per_side > 1 ? 8.0f : 1.0f);
+    const FramePlan plan = plan_frame(s.facts(frame));
+    PassRunner passes(plan, report, frame.timings);
+
+    glBindVertexArray(s.no_attributes.get());
+    passes.run(PassKind::Relight, [&] {
+        s.baked_light->set_hour(frame.hour, s.draw.programs);
+        return DrawCount{1, 1, 0, 0};
+    });
+    passes.run(PassKind::SunShadows, [&] { return s.sun_shadow.draw(s.draw); });
+    passes.run(PassKind::LampShadows, [&] { return s.lamp_shadow.draw(s.draw); });
+
+    glsl::FrameBlock block = s.frame_block(frame);
+    if (shows_straight_light(frame.show)) {
+        s.sun_shadow.use(block);
+        s.lamp_shadow.use(block);
+    }
+    if (s.baked_light) bind_texture(4, s.baked_light->texture());
+    glNamedBufferSubData(s.frame_buffer.get(), 0, sizeof block, &block);
+    glBindBufferBase(GL_UNIFORM_BUFFER, 0, s.frame_buffer.get());
+
+    s.target.bind_and_clear();
+    const Frustum seen = frustum(block.clip_from_world, true);
+    passes.run(PassKind::Depth, [&] {
+        glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+        const DrawCount count = s.draw.draw_depth(block.clip_from_world, seen);
+        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+        return count;
+    });
+    passes.run(PassKind::Surfaces, [&] {
+        glDepthFunc(GL_GEQUAL);
+        const DrawCount count = s.draw.draw_surfaces(
+            {s.frame_defines(frame.show, true), s.frame_defines(frame.show, false)}, seen);
+        glDepthFunc(GL_GREATER);
+        return count;
+    });
+    glBindVertexArray(s.no_attributes.get());
+    passes.run(PassKind::Sky, [&] { return s.sky.draw(s.draw.programs, s.lighting.suns.size()); });
+    passes.run(PassKind::Blended, [&] {
+        return s.blend.draw(s.draw, frame.view, {s.frame_defines(frame.show, true), s.frame_defines(frame.show, false)});
+    });
+    glBindVertexArray(s.no_attributes.get());
+    passes.run(PassKind::Resolve, [&] {
+        s.target.resolve(s.draw.programs);
+        return DrawCount{1, 1, 0, 0};
+    });
+    passes.run(PassKind::Meter, [&] {
+        report.metered_ev = s.target.meter();
+        return DrawCount{};
+    });
+    report.ev = s.ev = frame.ev.value_or(report.metered_ev);
+    return report;
+}
+
+Image Renderer::read_radiance() const { return state_->target.read(); }
+
+void Renderer::present(unsigned framebuffer, int width, int height) {
+    State& s = *state_;
+    const DrawState draw_state;
+    glBindVertexArray(s.no_attributes.get());
+    draw_display(s.target, s.draw.programs, s.shown, s.ev, framebuffer, width, height, true);
+}
+
+Image Renderer::read_display() {
+    State& s = *state_;
+    const DrawState draw_state;
+    const int width = s.target.width(), height = s.target.height();
+    const GlTexture texture = make_texture_2d(GL_RGBA32F, width, height);
+    const GlFramebuffer framebuffer = make_framebuffer({texture.get()});
+    glBindVertexArray(s.no_attributes.get());
+    draw_display(s.target, s.draw.programs, s.shown, s.ev, framebuffer.get(), width, height, false);
+    return read_texture(texture.get(), width, height);
+}
+
+std::string Renderer::reload_shaders() { return state_->draw.programs.reload(); }
+
+}  // namespace daylit

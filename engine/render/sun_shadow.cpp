@@ -1,0 +1,196 @@
+#include "engine/render/sun_shadow.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/gl/target.h"
+
+namespace daylit {
+namespace {
+
+constexpr int kSnapTexels = 64;  // cascades move by this many texels
+constexpr float kWidening = 3.0f;
+
+int range_levels(int texels) { return mip_levels(texels / 4, texels / 4) - 2; }
+
+}  // namespace
+
+SunFit fit_sun(const Sun& sun, const Bounds& scene, const Vec3& eye, int texels, float nearest) {
+    const Vec3 d = sun.direction;
+    const Vec3 x = glm::normalize(glm::cross(std::abs(d.y) < 0.99f ? Vec3(0, 1, 0) : Vec3(0, 0, 1), d));
+    const Vec3 y = glm::cross(d, x);
+
+    Bounds box;  // of the scene, in shadow space with z towards the sun
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 p(corner & 1 ? scene.max.x : scene.min.x, corner & 2 ? scene.max.y : scene.min.y,
+                     corner & 4 ? scene.max.z : scene.min.z);
+        box.add({glm::dot(x, p), glm::dot(y, p), glm::dot(d, p)});
+    }
+    const float margin = 1.0e-3f * (1.0f + box.max.z - box.min.z);
+
+    SunFit fit;
+    fit.depth_range = box.max.z - box.min.z + 2.0f * margin;
+    fit.block.axis_x = Vec4(x, 0);
+    fit.block.axis_y = Vec4(y, 0);
+    fit.block.direction = Vec4(d, box.max.z + margin);
+    fit.block.irradiance = Vec4(sun.irradiance, fit.depth_range);
+    fit.block.radiance = Vec4(disc_radiance(sun), 0);
+
+    const Vec2 center = Vec2(box.min + box.max) * 0.5f;
+    const float whole = 1.01f * 0.5f * std::max(box.max.x - box.min.x, box.max.y - box.min.y) + margin;
+    // A penumbra's kernel must not leave the map.
+    const float reach = std::tan(float(kSunRadius)) * fit.depth_range;
+    for (float half = nearest; half < 0.7f * whole && fit.cascades.size() + 1 < glsl::kMaxCascades; half *= kWidening) {
+        const float texel = 2.0f * half / float(texels), step = texel * kSnapTexels;
+        const Vec2 at = glm::round(Vec2(glm::dot(x, eye), glm::dot(y, eye)) / step) * step;
+        fit.cascades.emplace_back(at, texel, half - std::min(reach + 2.0f * texel, 0.2f * half));
+    }
+    fit.cascades.emplace_back(center, 2.0f * whole / float(texels), whole);
+    fit.block.radiance.w = float(fit.cascades.size());
+    return fit;
+}
+
+Mat4 cascade_matrix(const SunFit& fit, std::size_t cascade, int texels) {
+    const Vec4& c = fit.cascades[cascade];
+    const float scale = 2.0f / (c.z * float(texels));
+    const Vec3 x = Vec3(fit.block.axis_x) * scale, y = Vec3(fit.block.axis_y) * scale;
+    const Vec3 z = -Vec3(fit.block.direction) / fit.depth_range;
+    return Mat4(Vec4(x.x, y.x, z.x, 0), Vec4(x.y, y.y, z.y, 0), Vec4(x.z, y.z, z.z, 0),
+                Vec4(-c.x * scale, -c.y * scale, fit.block.direction.w / fit.depth_range, 1));
+}
+
+int SunShadow::layers() const {
+    std::size_t count = 0;
+    for (const SunFit& fit : fits_) count += fit.cascades.size();
+    return int(count);
+}
+
+bool SunShadow::plan(std::span<const Sun> suns, const DrawScene& scene, const Vec3& eye, int texels) {
+    fits_.clear();
+    stale_.clear();
+    if (scene.box.empty()) return false;
+    // Several suns share the memory of one.
+    texels_ = suns.size() > 1 ? texels / 2 : texels;
+    for (const Sun& sun : suns.first(std::min<std::size_t>(suns.size(), glsl::kMaxSuns)))
+        fits_.push_back(fit_sun(sun, scene.box, eye, texels_));
+    float first_layer = 0.0f;
+    for (SunFit& fit : fits_) {
+        fit.block.axis_x.w = first_layer;
+        first_layer += float(fit.cascades.size());
+    }
+
+    bool any = false;
+    const bool all = texture_texels_ != texels_ || texture_layers_ != layers() || drawn_.size() != fits_.size();
+    for (std::size_t s = 0; s < fits_.size(); ++s) {
+        stale_.emplace_back(fits_[s].cascades.size(), true);
+        const bool same_sun = !all && fits_[s].block.direction == drawn_[s].block.direction &&
+                              fits_[s].depth_range == drawn_[s].depth_range &&
+                              fits_[s].cascades.size() == drawn_[s].cascades.size();
+        for (std::size_t c = 0; c < fits_[s].cascades.size(); ++c) {
+            stale_[s][c] = !(same_sun && fits_[s].cascades[c] == drawn_[s].cascades[c]) ||
+                           scene.moved_in(frustum(cascade_matrix(fits_[s], c, texels_), false), drawn_version_);
+            any |= stale_[s][c];
+        }
+    }
+    return any;
+}
+
+void SunShadow::make_textures(const DrawScene& scene) {
+    if (texture_texels_ == texels_ && texture_layers_ == layers()) return;
+    texture_texels_ = texels_;
+    texture_layers_ = layers();
+    const TextureLook nearest{GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE, GL_NONE};
+    const TextureLook mips{GL_NEAREST_MIPMAP_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE, GL_NONE};
+    depth_ = make_texture_array(GL_DEPTH_COMPONENT32F, texels_, texels_, texture_layers_, 1, nearest);
+    const int levels = range_levels(texels_);
+    plain_range_ = make_texture_array(GL_RG32F, texels_ / 4, texels_ / 4, texture_layers_, levels, mips);
+    range_ = make_texture_array(GL_RG32F, texels_ / 4, texels_ / 4, texture_layers_, levels, mips);
+    veiled_ = scene.any_veils;
+    if (veiled_) veil_ = make_texture_array(GL_RGBA32F, texels_ / 2, texels_ / 2, texture_layers_);
+    framebuffer_ = make_framebuffer();
+}
+
+void SunShadow::draw_range(DrawScene& scene, int layer) {
+    glDisable(GL_DEPTH_TEST);
+    const int levels = range_levels(texels_);
+    const GLuint fbo = framebuffer_.get();
+    const auto pass = [&](GLuint target, int level, GLuint source, int source_level, const char* define) {
+        const int side = (texels_ / 4) >> level;
+        glNamedFramebufferTextureLayer(fbo, GL_COLOR_ATTACHMENT0, target, level, layer);
+        glViewport(0, 0, side, side);
+        const Program& program = scene.programs.get("fullscreen.vert", "depth_range.frag",
+                                                    define ? std::vector<std::string>{define} : std::vector<std::string>{});
+        program.use();
+        program.set("layer", layer);
+        // Reading one level of the texture that is drawn to is defined only when sampling is held to that level.
+        if (source == plain_range_.get()) {
+            glTextureParameteri(source, GL_TEXTURE_BASE_LEVEL, source_level);
+            glTextureParameteri(source, GL_TEXTURE_MAX_LEVEL, source_level);
+        }
+        bind_texture(0, source);
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+    };
+    glNamedFramebufferTexture(fbo, GL_DEPTH_ATTACHMENT, 0, 0);
+    glNamedFramebufferDrawBuffer(fbo, GL_COLOR_ATTACHMENT0);
+    pass(plain_range_.get(), 0, depth_.get(), 0, "FROM_DEPTH");
+    for (int level = 1; level < levels; ++level) pass(plain_range_.get(), level, plain_range_.get(), level - 1, nullptr);
+    for (int level = 0; level < levels; ++level) pass(range_.get(), level, plain_range_.get(), level, "DILATE");
+    glEnable(GL_DEPTH_TEST);
+}
+
+DrawCount SunShadow::draw(DrawScene& scene) {
+    DrawCount count;
+    maps_drawn_ = 0;
+    make_textures(scene);
+    const GLuint fbo = framebuffer_.get();
+    glBindFramebuffer(GL_FRAMEBUFFER, fbo);
+    int layer = 0;
+    for (std::size_t s = 0; s < fits_.size(); ++s)
+        for (std::size_t c = 0; c < fits_[s].cascades.size(); ++c, ++layer) {
+            if (!stale_[s][c]) continue;
+            ++maps_drawn_;
+            const Mat4 matrix = cascade_matrix(fits_[s], c, texels_);
+            const Frustum seen = frustum(matrix, false);
+            glNamedFramebufferTexture(fbo, GL_COLOR_ATTACHMENT0, 0, 0);
+            glNamedFramebufferTextureLayer(fbo, GL_DEPTH_ATTACHMENT, depth_.get(), 0, layer);
+            glNamedFramebufferDrawBuffer(fbo, GL_NONE);
+            glViewport(0, 0, texels_, texels_);
+            glDepthFunc(GL_LESS);
+            const float far = 1.0f;
+            glClearNamedFramebufferfv(fbo, GL_DEPTH, 0, &far);
+            count.add(scene.draw_casters(matrix, seen));
+            draw_range(scene, layer);
+            if (!veiled_) continue;
+            glNamedFramebufferTextureLayer(fbo, GL_COLOR_ATTACHMENT0, veil_.get(), 0, layer);
+            glViewport(0, 0, texels_ / 2, texels_ / 2);
+            const float clear[4] = {1.0f, 1.0f, 1.0f, 1.0e30f};
+            glClearNamedFramebufferfv(fbo, GL_COLOR, 0, clear);
+            glDisable(GL_DEPTH_TEST);
+            glEnable(GL_BLEND);
+            glBlendEquationSeparate(GL_FUNC_ADD, GL_MIN);
+            glBlendFunc(GL_ZERO, GL_SRC_COLOR);
+            count.add(scene.draw_veils(matrix, seen, fits_[s].depth_range));
+            glBlendEquation(GL_FUNC_ADD);
+            glDisable(GL_BLEND);
+            glEnable(GL_DEPTH_TEST);
+        }
+    glDepthFunc(GL_GREATER);
+    drawn_ = fits_;
+    drawn_version_ = scene.version;
+    return count;
+}
+
+void SunShadow::use(glsl::FrameBlock& frame) const {
+    for (std::size_t s = 0; s < fits_.size(); ++s) {
+        frame.suns[s] = fits_[s].block;
+        std::copy(fits_[s].cascades.begin(), fits_[s].cascades.end(), frame.cascades + s * glsl::kMaxCascades);
+    }
+    frame.counts.x = float(fits_.size());
+    frame.counts.z = float(texels_);
+    if (fits_.empty()) return;
+    bind_texture(5, depth_.get());
+    bind_texture(6, range_.get());
+    if (veiled_) bind_texture(7, veil_.get());
+}
+
+}  // namespace daylit
