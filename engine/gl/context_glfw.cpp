@@ -24,7 +24,8 @@ class GlfwLibrary {
     }
     GlfwLibrary() {
         if (!glfwInit()) {
-            throw Error("GLFW", "no display to open a window on (" + error_text() + "); EGL and OSMesa need none");
+            throw Error("GLFW", "no display to open a window on (" + error_text() +
+                                    "); give one in DISPLAY, or draw without it by --context egl or osmesa");
         }
     }
     ~GlfwLibrary() { glfwTerminate(); }

@@ -1,0 +1,119 @@
+// daylit bake: works out the indirect light of a level's day and writes it beside the scene.
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "demo/commands.h"
+#include "demo/info.h"
+#include "demo/options.h"
+#include "demo/output.h"
+#include "demo/progress.h"
+#include "demo/traced_scene.h"
+#include "engine/base/error.h"
+#include "gi/bake.h"
+
+namespace daylit {
+namespace {
+
+struct BakeOptions {
+    SceneOptions scene;
+    std::string output, quality = "preview", parts = "auto", hours = "0-24", every = "30m";
+    double error = 0.0;
+    int bounces = 64, threads = 0;
+    std::uint64_t seed = 1;
+    bool resume = false, json = false;
+};
+
+double error_of(const BakeOptions& options) {
+    if (options.error != 0.0) return parse_number("--error", std::to_string(options.error), 0.001, 1.0);
+    if (options.quality == "preview") return 0.10;
+    if (options.quality == "medium") return 0.03;
+    if (options.quality == "high") return 0.01;
+    throw UsageError("--quality", "'" + options.quality + "' is not one of preview, medium, high");
+}
+
+std::vector<std::string> parts_of(const std::string& text) {
+    if (text == "auto") return {};
+    std::vector<std::string> parts;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t comma = std::min(text.find(',', begin), text.size());
+        const std::string part = text.substr(begin, comma - begin);
+        if (part != "lightmap" && part != "volume" && part != "dirmap" && part != "antiradiance" && part != "caustics")
+            throw UsageError("--parts", "'" + part + "' is not one of auto, lightmap, volume, dirmap, antiradiance, caustics");
+        parts.push_back(part);
+        begin = comma + 1;
+    }
+    return parts;
+}
+
+void read_hours(const BakeOptions& options, BakeSettings& settings) {
+    const std::size_t dash = options.hours.find('-', 1);
+    if (dash == std::string::npos) throw UsageError("--hours", "'" + options.hours + "' is not FROM-TO, as in 0-24 or 6-20");
+    const std::string from = options.hours.substr(0, dash), to = options.hours.substr(dash + 1);
+    settings.from_hour = parse_hour("--hours", from);
+    settings.to_hour = to == "24" || to == "24:00" ? 24.0 : parse_hour("--hours", to);
+    if (settings.to_hour < settings.from_hour) throw Error("--hours", "ends before it begins; give FROM-TO within one day");
+    settings.every_hours = parse_duration_hours("--every", options.every);
+    if (!(settings.every_hours >= 1.0 / 60.0)) throw Error("--every", "give a minute or more");
+}
+
+BakeSettings settings_from(const BakeOptions& options) {
+    BakeSettings settings;
+    settings.error = error_of(options);
+    settings.parts = parts_of(options.parts);
+    settings.seed = options.seed;
+    if (options.bounces < 0 || options.bounces > 10000) throw Error("--bounces", "give 0 to 10000");
+    settings.bounces = options.bounces;
+    read_hours(options, settings);
+    return settings;
+}
+
+void run(const BakeOptions& options) {
+    // A bake of this first form takes minutes and is the same each time, so there is nothing to go on from.
+    if (options.resume) throw Error("--resume", "is not part of this version; bake again without it, the result is the same");
+    const std::filesystem::path output =
+        options.output.empty() ? std::filesystem::path(options.scene.scene).replace_extension(".daylit")
+                               : std::filesystem::path(options.output);
+    check_output(output.string(), {".daylit"});
+    BakeSettings settings = settings_from(options);
+    const ThreadLimit threads(options.threads);
+    const LoadedScene loaded = load(options.scene);
+    settings.light = loaded.light, settings.unit = loaded.unit, settings.lambert = loaded.lambert;
+
+    const auto start = std::chrono::steady_clock::now();
+    write_baked(output, bake(loaded.scene, settings, make_progress("bake")));
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+    nlohmann::json about = describe_baked(output);
+    about["seconds"] = seconds;
+    if (options.json)
+        std::printf("%s\n", about.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    else
+        std::fprintf(stderr, "%s\n", summary(about).c_str());
+}
+
+}  // namespace
+
+void add_bake(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("bake", "work out the indirect light of SCENE over the day");
+    const auto options = std::make_shared<BakeOptions>();
+    add_scene_options(*command, options->scene);
+    const std::string group = "Bake";
+    command->add_option("-o", options->output, "file to write (default: beside the scene, .daylit)")->group(group);
+    CLI::Option* quality = command->add_option("--quality", options->quality, "preview (error 0.10) | medium (0.03) | high (0.01)")
+                               ->group(group)->capture_default_str();
+    command->add_option("--error", options->error, "target relative error instead of a quality")->group(group)->excludes(quality);
+    command->add_option("--parts", options->parts, "auto, or a list of lightmap, volume, dirmap, antiradiance, caustics")
+        ->group(group)->capture_default_str();
+    command->add_option("--hours", options->hours, "FROM-TO, local clock")->group(group)->capture_default_str();
+    command->add_option("--every", options->every, "time between keyframes, as in 5m or 0.5h")->group(group)->capture_default_str();
+    command->add_option("--bounces", options->bounces, "at most; ends when the rest no longer counts")->group(group)->capture_default_str();
+    command->add_option("--seed", options->seed, "of the random numbers")->group(group)->capture_default_str();
+    command->add_option("--threads", options->threads, "0: all cores")->group(group)->capture_default_str();
+    command->add_flag("--resume", options->resume, "go on from an interrupted bake")->group(group);
+    command->add_flag("--json", options->json, "what was baked, as `info --json`, and the seconds it took")->group(group);
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace daylit

@@ -1,0 +1,87 @@
+#include "gi/bake_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/baked/part_plan.h"
+#include "engine/base/error.h"
+
+namespace daylit {
+namespace {
+
+// Texels: few for scenes of few surfaces (a box needs no more), up to the ceiling for levels. At preview (error 0.10)
+// the ceiling keeps two cores busy for about a minute.
+constexpr double kFewestTexels = 24000, kTexelsPerTriangle = 8, kPreviewTexels = 300000;
+// Rays a texel at preview; noise falls with their root, and filtering over neighbours takes a good part of the rest.
+constexpr double kPreviewRays = 96, kPreviewError = 0.10;
+constexpr int kFewestRays = 32, kMostRays = 1024;
+// Below this the night is as good as black: a hundredth of starlight.
+constexpr double kBlackLux = 1e-5;
+
+bool dark(const Lighting& lighting) {
+    if (!lighting.suns.empty()) return false;
+    for (const Rgb& radiance : lighting.sky.map.pixels)
+        if (kPi * double(luminance(radiance)) > kBlackLux) return false;
+    return true;
+}
+
+std::size_t texel_budget(const SceneFacts& facts, double error) {
+    const double finer = kPreviewError / error;
+    const double wanted = std::min(kFewestTexels + kTexelsPerTriangle * double(facts.static_triangles), kPreviewTexels);
+    return std::size_t(wanted * std::clamp(finer, 0.25, 4.0));
+}
+
+int rays_per_texel(double error) {
+    const double rays = kPreviewRays * std::pow(kPreviewError / error, 1.0);
+    return std::clamp(int(rays / 16.0 + 0.5) * 16, kFewestRays, kMostRays);
+}
+
+std::vector<PlanItem> parts_of_this_version(const SceneFacts& facts, const std::vector<std::string>& asked) {
+    for (const std::string& part : asked)
+        if (part != "lightmap")
+            throw Error("--parts", "'" + part + "' is not baked by this version; lightmap is (or auto)");
+    std::vector<PlanItem> parts = plan_parts(facts, asked);
+    for (PlanItem& item : parts) {
+        if (item.part == "lightmap" || !item.done) continue;
+        item.done = false;
+        item.why = "not baked by this version, though the scene has use for it (" + item.why + ")";
+    }
+    return parts;
+}
+
+}  // namespace
+
+Keyframes keyframes(const LightModel& light, double from, double to, double every) {
+    if (light.constant()) return {{from}, {light.at(from)}};
+    Keyframes all, kept;
+    const int steps = int(std::floor((to - from) / every + 1e-6));
+    for (int i = 0; i <= steps; ++i) all.hours.push_back(from + i * every);
+    if (all.hours.back() < to - 1e-6) all.hours.push_back(to);
+    for (double hour : all.hours) all.lighting.push_back(light.at(hour));
+
+    std::vector<bool> is_dark;
+    for (const Lighting& lighting : all.lighting) is_dark.push_back(dark(lighting));
+    for (std::size_t i = 0; i < all.hours.size(); ++i) {
+        const bool beside_light = (i > 0 && !is_dark[i - 1]) || (i + 1 < all.hours.size() && !is_dark[i + 1]);
+        const bool only = i == 0 && std::find(is_dark.begin(), is_dark.end(), false) == is_dark.end();
+        if (is_dark[i] && !beside_light && !only) continue;
+        kept.hours.push_back(all.hours[i]);
+        kept.lighting.push_back(std::move(all.lighting[i]));
+    }
+    return kept;
+}
+
+BakePlan plan_bake(const SceneFacts& facts, const LightModel& light, const BakeSettings& settings) {
+    BakePlan plan;
+    plan.parts = parts_of_this_version(facts, settings.parts);
+    plan.lightmap = std::any_of(plan.parts.begin(), plan.parts.end(),
+                                [](const PlanItem& item) { return item.part == "lightmap" && item.done; });
+    if (!plan.lightmap) return plan;
+    plan.texel_budget = texel_budget(facts, settings.error);
+    plan.rays = rays_per_texel(settings.error);
+    plan.encoding_error = 0.2 * settings.error;
+    plan.keyframes = keyframes(light, settings.from_hour, settings.to_hour, settings.every_hours);
+    return plan;
+}
+
+}  // namespace daylit

@@ -1,0 +1,30 @@
+#pragma once
+// What this scene needs, how finely, and why.
+#include <vector>
+
+#include "engine/scene/scene_facts.h"
+#include "gi/bake.h"
+
+namespace daylit {
+
+/// Light at the hours that are baked: every `every`, from `from` to `to`, without those in the middle of the night,
+/// where nothing moves; one hour alone when the light is always the same.
+struct Keyframes {
+    std::vector<double> hours;
+    std::vector<Lighting> lighting;
+};
+struct BakePlan {
+    std::vector<PlanItem> parts;   // what is baked, what is left out, and why; goes into the file
+    bool lightmap = false;
+    std::size_t texel_budget = 0;  // of the lightmap
+    int rays = 0;                  // per texel
+    double encoding_error = 0.0;   // at which no further time component is added
+    Keyframes keyframes;
+};
+
+/// throws Error when settings ask for parts that this version does not bake.
+BakePlan plan_bake(const SceneFacts& facts, const LightModel& light, const BakeSettings& settings);
+
+Keyframes keyframes(const LightModel& light, double from, double to, double every);
+
+}  // namespace daylit

@@ -1,0 +1,114 @@
+#include "gi/surface/smooth.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nanoflann.hpp>
+
+namespace daylit {
+namespace {
+
+constexpr std::size_t kNeighbours = 24;
+constexpr float kSigma = 1.0f;         // of the Gaussian, texels
+constexpr float kSigmaOfNearness = 0.3f;  // and at most this share of the mean distance of what is seen
+constexpr float kReach = 2.5f;         // sigmas
+constexpr float kMinCosine = 0.9f;
+constexpr float kPlane = 0.25f;        // texels out of the tangent plane at which the weight falls to 1/e
+constexpr float kSightHeight = 0.25f;  // texels above the surface
+
+struct Cloud {
+    const std::vector<Vec3>& points;
+    std::size_t kdtree_get_point_count() const { return points.size(); }
+    float kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][int(axis)]; }
+    template <class Box>
+    bool kdtree_get_bbox(Box&) const {
+        return false;
+    }
+};
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Cloud>, Cloud, 3, std::uint32_t>;
+
+class Neighbourhood {
+  public:
+    Neighbourhood(const RayScene& rays, const Texels& texels, std::span<const float> nearness,
+                  const std::vector<bool>& usable)
+        : rays_(rays), texels_(texels), nearness_(nearness), usable_(usable) {}
+
+    /// The weight of b for a; 0 when they are not on one open piece of surface.
+    float weight(std::uint32_t a, std::uint32_t b) const {
+        if (a == b) return 1.0f;
+        if (!usable_[b]) return 0.0f;
+        const float width = texels_.width[a];
+        const float sigma = std::min(kSigma * width, kSigmaOfNearness * std::min(nearness_[a], nearness_[b]));
+        const Vec3 offset = texels_.position[b] - texels_.position[a];
+        const float square = glm::dot(offset, offset);
+        const float cosine = glm::dot(texels_.normal[a], texels_.normal[b]);
+        if (square > kReach * kReach * sigma * sigma || cosine < kMinCosine) return 0.0f;
+        const float out = std::max(std::abs(glm::dot(offset, texels_.normal[a])), std::abs(glm::dot(offset, texels_.normal[b])));
+        const float in_plane = out / (kPlane * width);
+        if (!sees(a, b)) return 0.0f;
+        return std::exp(-0.5f * square / (sigma * sigma) - in_plane * in_plane) * (cosine - kMinCosine) / (1.0f - kMinCosine);
+    }
+
+  private:
+    bool sees(std::uint32_t a, std::uint32_t b) const {
+        const auto above = [&](std::uint32_t t) {
+            return texels_.position[t] + std::min(kSightHeight * texels_.width[t], 0.3f * nearness_[t]) * texels_.normal[t];
+        };
+        const Vec3 from = above(a), way = above(b) - from;
+        const float length = glm::length(way);
+        return !(length > 0.0f) || rays_.transmittance({from, way / length, 0.0f, length}) > 0.0f;
+    }
+
+    const RayScene& rays_;
+    const Texels& texels_;
+    std::span<const float> nearness_;
+    const std::vector<bool>& usable_;
+};
+
+}  // namespace
+
+SmoothingWeights smoothing_weights(const RayScene& rays, const Texels& texels, std::span<const float> nearness,
+                                   const std::vector<bool>& usable) {
+    const std::size_t count = texels.count();
+    const Cloud cloud{texels.position};
+    Tree tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(16));
+    tree.buildIndex();
+    const Neighbourhood neighbourhood(rays, texels, nearness, usable);
+    std::vector<std::uint32_t> found(count * kNeighbours, kNoTexel);
+    std::vector<float> weight(count * kNeighbours, 0.0f);
+    tbb::parallel_for(std::size_t(0), count, [&](std::size_t t) {
+        if (!usable[t]) return;
+        std::array<float, kNeighbours> squares;
+        std::uint32_t* ids = found.data() + t * kNeighbours;
+        const std::size_t n = tree.knnSearch(&texels.position[t].x, kNeighbours, ids, squares.data());
+        std::sort(ids, ids + n);  // a fixed order of summation
+        float sum = 0.0f;
+        for (std::size_t k = 0; k < n; ++k) sum += weight[t * kNeighbours + k] = neighbourhood.weight(std::uint32_t(t), ids[k]);
+        if (sum <= 0.0f) ids[0] = std::uint32_t(t), weight[t * kNeighbours] = sum = 1.0f;  // many at one place
+        for (std::size_t k = 0; k < n; ++k) weight[t * kNeighbours + k] /= sum;
+    });
+
+    SmoothingWeights result;
+    result.first.push_back(0);
+    for (std::size_t t = 0; t < count; ++t) {
+        for (std::size_t k = t * kNeighbours; k < (t + 1) * kNeighbours; ++k)
+            if (weight[k] > 0.0f) result.texel.push_back(found[k]), result.weight.push_back(weight[k]);
+        result.first.push_back(std::uint32_t(result.texel.size()));
+    }
+    return result;
+}
+
+std::vector<Rgb> smooth(const SmoothingWeights& weights, std::span<const Rgb> rows, std::size_t columns) {
+    std::vector<Rgb> result(rows.size(), Rgb(0.0f));
+    tbb::parallel_for(std::size_t(0), weights.first.size() - 1, [&](std::size_t t) {
+        Rgb* out = result.data() + t * columns;
+        for (std::uint32_t k = weights.first[t]; k < weights.first[t + 1]; ++k) {
+            const Rgb* in = rows.data() + std::size_t(weights.texel[k]) * columns;
+            for (std::size_t c = 0; c < columns; ++c) out[c] += weights.weight[k] * in[c];
+        }
+    });
+    return result;
+}
+
+}  // namespace daylit

@@ -1,0 +1,27 @@
+#pragma once
+// Noise filtering over neighbours in space, never across the atlas, so that charts that meet agree and walls separate.
+#include <span>
+#include <vector>
+
+#include "gi/surface/texels.h"
+#include "gi/trace/ray_scene.h"
+
+namespace daylit {
+
+/// Weights of a texel's neighbours, itself included, summing to 1; a sparse matrix by rows.
+struct SmoothingWeights {
+    std::vector<std::uint32_t> first;  // one more than texels
+    std::vector<std::uint32_t> texel;
+    std::vector<float> weight;
+};
+
+/// Neighbours on the same surface that see each other: within about two texels and a third of the distance to what
+/// lights them (`nearness`, metres), facing alike, in one plane, with free sight just above the surface.
+/// usable    texels that hold light; the others get no neighbours and are nobody's
+SmoothingWeights smoothing_weights(const RayScene& rays, const Texels& texels, std::span<const float> nearness,
+                                   const std::vector<bool>& usable);
+
+/// rows   texels * columns
+std::vector<Rgb> smooth(const SmoothingWeights& weights, std::span<const Rgb> rows, std::size_t columns);
+
+}  // namespace daylit

@@ -1,0 +1,161 @@
+#include "gi/surface/texels.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "gi/surface/raster.h"
+
+namespace daylit {
+namespace {
+
+constexpr int kGrid = 4;  // points along each side of a texel
+constexpr std::size_t kFewPoints = 4;  // a texel with fewer also takes the centroids of triangles too small to be met
+
+/// The points of one chart, sorted by cell.
+struct ChartPoints {
+    std::vector<std::vector<TexelPoint>> cells;
+};
+
+/// From the plane to a grid of kGrid x kGrid points a texel, with its origin half a texel outside the chart.
+Vec2 to_points(const PlacedChart& c, const Vec2& plane) {
+    const auto along = [](float p, float step, int count) {
+        const float grid = step > 0.0f ? p / step : 0.0f;
+        return float(kGrid) * (count == 1 ? grid : grid + 0.5f);
+    };
+    return {along(plane.x, c.step.x, c.nx), along(plane.y, c.step.y, c.ny)};
+}
+
+/// Weights of the second and third corner at the centre of cell (x, y) of the point grid.
+Vec2 barycentric(const std::array<Vec2, 3>& p, long x, long y) {
+    const glm::dvec2 e = glm::dvec2(p[1]) - glm::dvec2(p[0]), f = glm::dvec2(p[2]) - glm::dvec2(p[0]);
+    const glm::dvec2 d = glm::dvec2(double(x) + 0.5, double(y) + 0.5) - glm::dvec2(p[0]);
+    const double area = e.x * f.y - e.y * f.x;
+    const double b = std::clamp((d.x * f.y - d.y * f.x) / area, 0.0, 1.0);
+    return {float(b), float(std::clamp((e.x * d.y - e.y * d.x) / area, 0.0, 1.0 - b))};
+}
+
+ChartPoints chart_points(const WorldMesh& mesh, const PlacedChart& c) {
+    ChartPoints result;
+    result.cells.resize(std::size_t(c.nx) * std::size_t(c.ny));
+    std::vector<bool> taken(result.cells.size() * kGrid * kGrid, false);
+    std::vector<std::uint32_t> missed;
+    for (std::uint32_t t : c.chart.triangles) {
+        std::array<Vec2, 3> p;
+        for (std::size_t k = 0; k < 3; ++k)
+            p[k] = to_points(c, c.chart.project(mesh.positions[mesh.indices[3 * std::size_t(t) + k]]));
+        bool met = false;
+        for_cells_inside(p, 0.0, [&](long x, long y) {
+            const long cx = x / kGrid, cy = y / kGrid;
+            if (x < 0 || y < 0 || cx >= c.nx || cy >= c.ny) return true;
+            const std::size_t sub = std::size_t(y) * std::size_t(c.nx) * kGrid + std::size_t(x);
+            met = true;
+            if (!taken[sub]) {
+                taken[sub] = true;
+                result.cells[std::size_t(cy) * std::size_t(c.nx) + std::size_t(cx)].push_back({t, barycentric(p, x, y)});
+            }
+            return true;
+        });
+        if (!met) missed.push_back(t);
+    }
+    for (std::uint32_t t : missed) {
+        const TexelPoint centroid{t, Vec2(1.0f / 3.0f)};
+        const Vec2 plane = c.chart.project(position(mesh, centroid));
+        auto& cell = result.cells[std::size_t(c.nearest_y(plane)) * std::size_t(c.nx) + std::size_t(c.nearest_x(plane))];
+        if (cell.size() < kFewPoints) cell.push_back(centroid);
+    }
+    return result;
+}
+
+void add_texel(const WorldMesh& mesh, std::vector<TexelPoint>&& points, std::uint32_t chart, std::uint32_t cell,
+               float width, Texels& texels) {
+    Vec3 place(0.0f), normal(0.0f);
+    for (const TexelPoint& p : points) {
+        place += position(mesh, p) / float(points.size());
+        normal += geometric_normal(mesh, p.triangle);
+    }
+    texels.texel_of_cell[cell] = std::uint32_t(texels.count());
+    texels.chart.push_back(chart);
+    texels.cell.push_back(cell);
+    texels.position.push_back(place);
+    texels.normal.push_back(glm::normalize(normal));  // within 37 degrees of the seed's, so never zero
+    texels.width.push_back(width);
+    texels.points.insert(texels.points.end(), points.begin(), points.end());
+    texels.first_point.push_back(std::uint32_t(texels.points.size()));
+}
+
+void fill_nearest(const Atlas& atlas, Texels& texels) {
+    texels.nearest_texel_of_cell = texels.texel_of_cell;
+    tbb::parallel_for(std::size_t(0), atlas.charts.size(), [&](std::size_t id) {
+        const PlacedChart& c = atlas.charts[id];
+        const std::uint32_t first = texels.first_cell[id], count = texels.first_cell[id + 1] - first;
+        std::vector<bool> usable(count);
+        for (std::uint32_t i = 0; i < count; ++i) usable[i] = texels.texel_of_cell[first + i] != kNoTexel;
+        const std::vector<std::uint32_t> nearest = nearest_usable(c.nx, c.ny, usable);
+        for (std::uint32_t i = 0; i < count; ++i)
+            texels.nearest_texel_of_cell[first + i] = texels.texel_of_cell[first + nearest[i]];
+    });
+}
+
+}  // namespace
+
+Vec3 position(const WorldMesh& mesh, const TexelPoint& point) {
+    const std::uint32_t* corner = &mesh.indices[3 * std::size_t(point.triangle)];
+    const Vec2 b = point.barycentric;
+    return mesh.positions[corner[0]] * (1.0f - b.x - b.y) + mesh.positions[corner[1]] * b.x +
+           mesh.positions[corner[2]] * b.y;
+}
+
+Vec3 geometric_normal(const WorldMesh& mesh, std::uint32_t triangle) {
+    const std::uint32_t* corner = &mesh.indices[3 * std::size_t(triangle)];
+    const glm::dvec3 a = mesh.positions[corner[0]], b = mesh.positions[corner[1]], c = mesh.positions[corner[2]];
+    return Vec3(glm::normalize(glm::cross(b - a, c - a)));
+}
+
+std::vector<std::uint32_t> nearest_usable(int nx, int ny, const std::vector<bool>& usable) {
+    std::vector<std::uint32_t> nearest(usable.size(), kNoTexel), queue;
+    for (std::uint32_t i = 0; i < usable.size(); ++i)
+        if (usable[i]) nearest[i] = i, queue.push_back(i);
+    for (std::size_t head = 0; head < queue.size(); ++head) {
+        const int x = int(queue[head]) % nx, y = int(queue[head]) / nx;
+        const auto spread = [&](int to_x, int to_y) {
+            if (to_x < 0 || to_y < 0 || to_x >= nx || to_y >= ny) return;
+            const std::uint32_t to = std::uint32_t(to_y * nx + to_x);
+            if (nearest[to] == kNoTexel) nearest[to] = nearest[queue[head]], queue.push_back(to);
+        };
+        spread(x, y - 1), spread(x - 1, y), spread(x + 1, y), spread(x, y + 1);
+    }
+    return nearest;
+}
+
+std::uint32_t Texels::at(const Atlas& atlas, std::uint32_t triangle, const Vec3& p) const {
+    const std::uint32_t id = atlas.chart_of_triangle[triangle];
+    if (id == kNoChart) return kNoTexel;
+    const PlacedChart& c = atlas.charts[id];
+    const Vec2 plane = c.chart.project(p);
+    return nearest_texel_of_cell[first_cell[id] + std::uint32_t(c.nearest_y(plane) * c.nx + c.nearest_x(plane))];
+}
+
+Texels make_texels(const WorldMesh& mesh, const Atlas& atlas) {
+    std::vector<ChartPoints> charts(atlas.charts.size());
+    tbb::parallel_for(std::size_t(0), charts.size(),
+                      [&](std::size_t id) { charts[id] = chart_points(mesh, atlas.charts[id]); });
+    Texels texels;
+    texels.first_point.push_back(0);
+    for (std::uint32_t id = 0; id < charts.size(); ++id) {
+        const PlacedChart& c = atlas.charts[id];
+        const std::uint32_t first = std::uint32_t(texels.texel_of_cell.size());
+        texels.first_cell.push_back(first);
+        texels.texel_of_cell.resize(first + charts[id].cells.size(), kNoTexel);
+        const float width = std::sqrt(std::max(c.step.x, 1e-9f) * std::max(c.step.y, 1e-9f));
+        for (std::uint32_t i = 0; i < charts[id].cells.size(); ++i)
+            if (!charts[id].cells[i].empty())
+                add_texel(mesh, std::move(charts[id].cells[i]), id, first + i, width, texels);
+    }
+    texels.first_cell.push_back(std::uint32_t(texels.texel_of_cell.size()));
+    fill_nearest(atlas, texels);
+    return texels;
+}
+
+}  // namespace daylit

@@ -1,0 +1,51 @@
+#pragma once
+// Where on the surface each texel of the atlas lies.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gi/surface/atlas.h"
+
+namespace daylit {
+
+/// A point of the surface inside a texel's footprint.
+struct TexelPoint {
+    std::uint32_t triangle = 0;
+    Vec2 barycentric = Vec2(0.0f);  // weights of the triangle's second and third corner
+};
+
+/// The texels that surface lies in, numbered chart by chart, row by row; the others of a chart's grid are fetched by
+/// bilinear filtering only and filled from these.
+struct Texels {
+    std::vector<std::uint32_t> first_cell;     // of each chart's grid; one more than charts
+    std::vector<std::uint32_t> texel_of_cell;  // nx * ny per chart, row by row; kNoTexel: no surface in its footprint
+    std::vector<std::uint32_t> chart;          // of each texel
+    std::vector<std::uint32_t> cell;           // of each texel, index into texel_of_cell
+    std::vector<std::uint32_t> first_point;    // of each texel; one more than texels
+    std::vector<TexelPoint> points;            // up to 16 a texel, spread over its footprint
+    std::vector<Vec3> position;                // mean of its points
+    std::vector<Vec3> normal;                  // unit, mean of its points' geometric normals
+    std::vector<float> width;                  // metres: the side of a square as large as a texel of this chart
+
+    std::size_t count() const { return chart.size(); }
+    std::span<const TexelPoint> points_of(std::size_t texel) const {
+        return {points.data() + first_point[texel], first_point[texel + 1] - first_point[texel]};
+    }
+    /// The texel that a point of a triangle belongs to: its own, or the nearest of the chart that has surface.
+    std::uint32_t at(const Atlas& atlas, std::uint32_t triangle, const Vec3& position) const;
+
+    /// For cells without surface: the nearest texel of the same chart; for the others themselves.
+    std::vector<std::uint32_t> nearest_texel_of_cell;
+};
+inline constexpr std::uint32_t kNoTexel = ~0u;
+
+Texels make_texels(const WorldMesh& mesh, const Atlas& atlas);
+
+Vec3 position(const WorldMesh& mesh, const TexelPoint& point);
+Vec3 geometric_normal(const WorldMesh& mesh, std::uint32_t triangle);
+
+/// For every cell of a chart's grid (nx * ny, row by row) the nearest one for which `usable` holds, by breadth-first
+/// search over four neighbours, lower indices first; kNoTexel everywhere when none is.
+std::vector<std::uint32_t> nearest_usable(int nx, int ny, const std::vector<bool>& usable);
+
+}  // namespace daylit

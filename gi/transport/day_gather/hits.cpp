@@ -1,0 +1,265 @@
+// Rays of every receiver, traced once and kept.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/base/random.h"
+#include "engine/scene/texture.h"
+#include "gi/transport/day_gather/day_gather.h"
+#include "gi/transport/day_gather/sequence.h"
+#include "gi/transport/path_trace/bsdf.h"
+#include "gi/transport/path_trace/lights.h"
+#include "gi/transport/path_trace/panes.h"
+
+namespace daylit {
+namespace {
+
+constexpr std::uint32_t kBackBit = 1u << 30;  // until the backs that are seen have receivers of their own
+constexpr int kEmitterSamples = 8, kGlassEvents = 8;
+// A surface nearer than this share of a texel's width covers the point: a box standing on the floor.
+constexpr float kCovered = 0.01f;
+constexpr float kLeastUsable = 0.25f;  // share of a receiver's rays below which it is filled from neighbours instead
+constexpr std::size_t kMaxPoints = 16;
+
+/// A texel's points with the normals of one side.
+struct Points {
+    std::size_t count = 0;
+    std::array<Vec3, kMaxPoints> position, normal;
+};
+
+Points points_of(const GatherScene& scene, const Receiver& receiver) {
+    Points points;
+    for (const TexelPoint& p : scene.texels.points_of(receiver.texel)) {
+        if (points.count == kMaxPoints) break;
+        const Vec3 n = geometric_normal(scene.rays.mesh(), p.triangle);
+        points.position[points.count] = position(scene.rays.mesh(), p);
+        points.normal[points.count++] = receiver.back ? -n : n;
+    }
+    return points;
+}
+
+/// One receiver's rays, before it is known which of its points lie inside solid geometry.
+class ReceiverRays {
+  public:
+    ReceiverRays(const GatherScene& scene, const GatherSettings& settings)
+        : scene_(scene), settings_(settings), materials_(scene.rays.scene()), emitters_(scene.rays, materials_),
+          panes_(find_panes(scene.rays.mesh(), materials_)) {}
+
+    void trace(std::size_t r, GatherHits& out) const {
+        const Receiver receiver = out.receivers[r];
+        const Points points = points_of(scene_, receiver);
+        Random random(settings_.seed, 2 * std::uint64_t(receiver.texel) + receiver.back, 0);
+        std::uint32_t* hit = out.hit.data() + r * std::size_t(out.rays);
+        std::vector<Rgb> emitted(std::size_t(out.rays), Rgb(0.0f));
+        std::vector<float> nearness(std::size_t(out.rays), 0.0f);
+        std::array<int, kMaxPoints> good{};
+        const float covered = kCovered * scene_.texels.width[receiver.texel];
+        const float turn_u = random.next(), turn_v = random.next();
+        for (int j = 0; j < out.rays; ++j) {
+            const std::size_t k = point_of_ray(j, points.count);
+            const Vec2 u(fraction((float(j) + 0.5f) / float(out.rays) + turn_u),
+                         fraction(radical_inverse(std::uint32_t(j)) + turn_v));
+            const Vec3 direction = Frame(points.normal[k]).to_world(sample_cosine_hemisphere(u.x, u.y));
+            Ray ray{RayScene::offset_origin(points.position[k], points.normal[k], direction), direction};
+            const std::optional<Hit> met = past_glass(ray, random);
+            hit[j] = kSkyBit | sky_bin(ray.direction);
+            good[k] += !met;
+            if (!met) continue;
+            const Vec3 place = ray.origin + met->distance * ray.direction;
+            const std::uint32_t texel = scene_.texels.at(scene_.atlas, met->triangle, place);
+            const bool back = glm::dot(ray.direction, met->normal) > 0.0f;
+            good[k] += !back && met->distance > covered;
+            hit[j] = texel == kNoTexel ? kNoLight : texel | (back ? kBackBit : 0u);
+            nearness[std::size_t(j)] = 1.0f / std::max(met->distance, 0.1f * scene_.texels.width[receiver.texel]);
+            if (materials_.emits(scene_.rays.mesh().materials[met->triangle]))
+                emitted[std::size_t(j)] = emitted_towards(ray, *met, glm::dot(direction, points.normal[k]));
+        }
+        reduce(r, points, good, emitted, nearness, random, out);
+    }
+
+  private:
+    /// Spreads the points over the directions: each block of rays goes through all points, shifted from block to block.
+    static std::size_t point_of_ray(int j, std::size_t points) {
+        return (std::size_t(j) + 5 * (std::size_t(j) / points)) % points;
+    }
+
+    /// Drops points that see nothing but backs or are covered, and sums what is left.
+    void reduce(std::size_t r, const Points& points, const std::array<int, kMaxPoints>& good,
+                const std::vector<Rgb>& emitted, const std::vector<float>& nearness, Random& random,
+                GatherHits& out) const {
+        std::uint32_t* hit = out.hit.data() + r * std::size_t(out.rays);
+        int kept = 0, near_count = 0;
+        float near_sum = 0.0f;
+        Rgb emission(0.0f);
+        for (int j = 0; j < out.rays; ++j) {
+            const std::size_t k = point_of_ray(j, points.count);
+            if (good[k] == 0) {
+                hit[j] = kNoLight;
+                continue;
+            }
+            ++kept;
+            emission += emitted[std::size_t(j)];
+            near_sum += nearness[std::size_t(j)];
+            ++near_count;
+        }
+        for (std::size_t k = 0; k < points.count; ++k)
+            if (good[k] > 0) out.usable[r] |= std::uint16_t(1u << k);
+        const bool buried = float(kept) < kLeastUsable * float(out.rays);
+        if (buried) std::fill(hit, hit + out.rays, kNoLight);
+        out.scale[r] = buried ? 0.0f : 1.0f / float(kept);
+        out.nearness[r] = near_sum > 0.0f ? float(near_count) / near_sum : 1e9f;
+        if (!buried) out.emission[r] = float(kPi) * out.scale[r] * emission + sampled_emission(r, points, random, out);
+    }
+
+    /// The nearest surface that is not glass; ray becomes its last stretch. The tint of glass decides by chance, in
+    /// luminance, whether light comes through: its colour is left to the reference and to the caustics to come.
+    std::optional<Hit> past_glass(Ray& ray, Random& random) const {
+        const WorldMesh& mesh = scene_.rays.mesh();
+        std::optional<Hit> met = scene_.rays.closest(ray, random.bits());
+        for (int events = 0; met && events < kGlassEvents && materials_.glass(mesh.materials[met->triangle]); ++events) {
+            const SurfacePoint point = scene_.rays.surface_point(ray, *met);
+            const float ior = scene_.rays.scene().materials[point.material].ior;
+            const bool pane = panes_[met->triangle], entering = glm::dot(ray.direction, met->normal) < 0.0f;
+            const float u = random.next();
+            const GlassBounce bounce = pane ? sample_pane(ray.direction, point.geometric_normal, ior, u)
+                                            : sample_glass(ray.direction, point.geometric_normal, entering ? ior : 1.0f / ior, u);
+            const float tint = luminance(materials_.color(point));
+            if (bounce.transmitted && random.next() >= (pane ? tint : std::sqrt(tint))) return met;
+            ray = {RayScene::offset_origin(point.position, point.geometric_normal, bounce.direction), bounce.direction};
+            met = scene_.rays.closest(ray, random.bits());
+        }
+        return met;
+    }
+
+    // Both ways of meeting an emitter are weighed by the power heuristic (Veach 1997).
+    Rgb emitted_towards(const Ray& ray, const Hit& hit, float cosine) const {
+        const float by_ray = float(settings_.rays) * pdf_cosine_hemisphere(cosine);
+        const float by_light =
+            float(kEmitterSamples) * emitters_.pdf(hit.triangle, hit.distance, glm::dot(ray.direction, hit.normal));
+        return power_heuristic(by_ray, by_light) * materials_.emission(scene_.rays.surface_point(ray, hit));
+    }
+
+    Rgb sampled_emission(std::size_t r, const Points& points, Random& random, const GatherHits& out) const {
+        Rgb sum(0.0f);
+        if (emitters_.empty()) return sum;
+        std::array<std::size_t, kMaxPoints> usable;
+        std::size_t count = 0;
+        for (std::size_t k = 0; k < points.count; ++k)
+            if (out.usable[r] >> k & 1u) usable[count++] = k;
+        for (int s = 0; s < kEmitterSamples; ++s) {
+            const std::size_t k = usable[std::min(std::size_t(random.next() * float(count)), count - 1)];
+            sum += from_sample(points.position[k], points.normal[k], emitters_.sample(points.position[k], random));
+        }
+        return sum / float(kEmitterSamples);
+    }
+
+    Rgb from_sample(const Vec3& p, const Vec3& n, const LightSample& light) const {
+        const float cosine = glm::dot(light.direction, n);
+        if (light.radiance == Rgb(0.0f) || !(light.pdf > 0.0f) || cosine <= 0.0f) return Rgb(0.0f);
+        const Vec3 origin = RayScene::offset_origin(p, n, light.direction);
+        const Vec3 end = RayScene::offset_origin(p + light.distance * light.direction, light.normal, -light.direction);
+        const float length = glm::dot(end - origin, light.direction);
+        if (!(length > 0.0f)) return Rgb(0.0f);
+        const float open = scene_.rays.transmittance({origin, light.direction, 0.0f, length});
+        const float weight = power_heuristic(float(kEmitterSamples) * light.pdf,
+                                             float(settings_.rays) * pdf_cosine_hemisphere(cosine));
+        return weight * open * cosine / light.pdf * light.radiance;
+    }
+
+    const GatherScene& scene_;
+    const GatherSettings& settings_;
+    Materials materials_;
+    EmitterSampler emitters_;
+    std::vector<bool> panes_;
+};
+
+/// Appends receivers with room for their rays.
+void add_receivers(const std::vector<Receiver>& more, GatherHits& hits) {
+    hits.receivers.insert(hits.receivers.end(), more.begin(), more.end());
+    const std::size_t count = hits.receivers.size();
+    hits.hit.resize(count * std::size_t(hits.rays), kNoLight);
+    hits.scale.resize(count, 0.0f);
+    hits.usable.resize(count, 0);
+    hits.nearness.resize(count, 0.0f);
+    hits.emission.resize(count, Rgb(0.0f));
+}
+
+/// Charts whose backs are met, from receivers `first` on, by more rays than chance cracks let through.
+std::vector<std::uint32_t> charts_seen_from_behind(const GatherScene& scene, const GatherHits& hits, std::size_t first,
+                                                   const std::vector<bool>& known) {
+    std::vector<std::uint32_t> met(scene.atlas.charts.size(), 0), size(met.size(), 0), result;
+    for (std::uint32_t chart : scene.texels.chart) ++size[chart];
+    for (std::size_t i = first * std::size_t(hits.rays); i < hits.hit.size(); ++i) {
+        const std::uint32_t h = hits.hit[i];
+        if (!(h & kSkyBit) && (h & kBackBit)) ++met[scene.texels.chart[h & ~kBackBit]];
+    }
+    for (std::uint32_t c = 0; c < met.size(); ++c)
+        if (!known[c] && met[c] > 4 + size[c] / 4) result.push_back(c);
+    return result;
+}
+
+/// Turns texel-and-side into receivers.
+void resolve(const GatherScene& scene, GatherHits& hits) {
+    std::vector<std::uint32_t> back(scene.texels.count(), kNoLight);
+    for (std::uint32_t r = std::uint32_t(scene.texels.count()); r < hits.receivers.size(); ++r)
+        back[hits.receivers[r].texel] = r;
+    for (std::uint32_t& h : hits.hit)
+        if (!(h & kSkyBit) && (h & kBackBit)) h = back[h & ~kBackBit];
+}
+
+}  // namespace
+
+GatherScene gather_scene(const RayScene& rays, const Atlas& atlas, const Texels& texels,
+                         std::span<const PlacedLight> lamps) {
+    GatherScene scene{rays, atlas, texels, lamps, std::vector<Rgb>(texels.count())};
+    const WorldMesh& mesh = rays.mesh();
+    const StageProgress silent{Progress{}};
+    for_each_parallel(texels.count(), silent, [&](std::size_t i) {
+        const auto points = texels.points_of(i);
+        Rgb sum(0.0f);
+        for (const TexelPoint& p : points) {
+            const std::uint32_t* c = &mesh.indices[3 * std::size_t(p.triangle)];
+            const Vec3 w(1.0f - p.barycentric.x - p.barycentric.y, p.barycentric.x, p.barycentric.y);
+            std::array<Vec2, 2> uvs;
+            for (std::size_t set = 0; set < 2; ++set)
+                uvs[set] = mesh.uvs[c[0]][set] * w.x + mesh.uvs[c[1]][set] * w.y + mesh.uvs[c[2]][set] * w.z;
+            const Rgba color = mesh.colors[c[0]] * w.x + mesh.colors[c[1]] * w.y + mesh.colors[c[2]] * w.z;
+            const glsl::Brdf brdf = surface_brdf(rays.scene(), rays.scene().materials[mesh.materials[p.triangle]], uvs, color);
+            sum += glm::clamp(brdf.diffuse + brdf.specular, Rgb(0.0f), Rgb(1.0f));
+        }
+        scene.albedo[i] = sum / float(points.size());
+    });
+    return scene;
+}
+
+GatherHits trace_hits(const GatherScene& scene, const GatherSettings& settings, const StageProgress& progress) {
+    const ReceiverRays receiver_rays(scene, settings);
+    GatherHits hits;
+    hits.rays = settings.rays;
+    std::vector<Receiver> fresh;
+    for (std::uint32_t t = 0; t < scene.texels.count(); ++t) fresh.push_back({t, false});
+    std::vector<bool> has_back(scene.atlas.charts.size(), false);
+    double begin = 0.0;
+    while (!fresh.empty()) {
+        const std::size_t first = hits.receivers.size();
+        add_receivers(fresh, hits);
+        const double end = begin == 0.0 ? 0.8 : 1.0;
+        const StageProgress pass{progress.report, progress.begin + begin * (progress.end - progress.begin),
+                                 progress.begin + end * (progress.end - progress.begin)};
+        for_each_parallel(fresh.size(), pass, [&](std::size_t i) { receiver_rays.trace(first + i, hits); });
+        begin = end;
+        for (std::uint32_t c : charts_seen_from_behind(scene, hits, first, has_back)) has_back[c] = true;
+        fresh.clear();
+        for (std::uint32_t t = 0; t < scene.texels.count(); ++t)
+            if (has_back[scene.texels.chart[t]]) fresh.push_back({t, true});
+        if (hits.receivers.size() > scene.texels.count()) {  // those that have receivers already
+            std::vector<bool> done(scene.texels.count(), false);
+            for (std::size_t r = scene.texels.count(); r < hits.receivers.size(); ++r) done[hits.receivers[r].texel] = true;
+            std::erase_if(fresh, [&](const Receiver& r) { return done[r.texel]; });
+        }
+    }
+    resolve(scene, hits);
+    return hits;
+}
+
+}  // namespace daylit
