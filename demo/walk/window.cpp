@@ -117,27 +117,26 @@ void WalkWindow::press(int key, bool shift) {
 void WalkWindow::on_button(GLFWwindow* window, int, int action, int) {
     WalkWindow& me = self(window);
     me.stir();
-    if (action == GLFW_PRESS && !me.captured_ && !ImGui::GetIO().WantCaptureMouse) me.capture(true);
+    if (action == GLFW_PRESS) me.clicked_ = true;
 }
 
 void WalkWindow::on_cursor(GLFWwindow* window, double x, double y) {
     WalkWindow& me = self(window);
     me.stir();
-    if (me.captured_ && !me.fresh_capture_) {
+    if (me.captured_) {
         Gaze& gaze = me.state_.gaze;
         gaze.yaw -= float(x - me.cursor_x_) * kMouseTurn;
         gaze.pitch -= float(y - me.cursor_y_) * kMouseTurn;
         gaze.pitch = std::clamp(gaze.pitch, -kSteepestPitch, kSteepestPitch);
     }
-    me.fresh_capture_ = false;
     me.cursor_x_ = x;
     me.cursor_y_ = y;
 }
 
 void WalkWindow::capture(bool on) {
     captured_ = on;
-    fresh_capture_ = on;
     glfwSetInputMode(window_, GLFW_CURSOR, on ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+    glfwGetCursorPos(window_, &cursor_x_, &cursor_y_);
     ImGuiConfigFlags& flags = ImGui::GetIO().ConfigFlags;
     flags = on ? flags | ImGuiConfigFlags_NoMouse : flags & ~ImGuiConfigFlags_NoMouse;
 }
@@ -174,6 +173,8 @@ void WalkWindow::begin_panel() {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
+    // Only now is it known whether the pointer was over the panel when the button went down.
+    if (std::exchange(clicked_, false) && !captured_ && !ImGui::GetIO().WantCaptureMouse) capture(true);
 }
 
 void WalkWindow::end_panel_and_show() {

@@ -47,7 +47,7 @@ class WalkWindow {
     std::unique_ptr<GlContext> context_;
     GLFWwindow* window_ = nullptr;
     bool captured_ = false;
-    bool fresh_capture_ = false;  // the cursor's next position is a start, not a movement
+    bool clicked_ = false;  // since the last frame
     double cursor_x_ = 0, cursor_y_ = 0;
     int frames_to_draw_ = 4;
     std::string title_;

@@ -24,8 +24,7 @@ class GlfwLibrary {
     }
     GlfwLibrary() {
         if (!glfwInit()) {
-            throw Error("GLFW", "no display to open a window on (" + error_text() +
-                                    "); give one in DISPLAY, or draw without it by --context egl or osmesa");
+            throw Error("GLFW", "no display to open a window on (" + error_text() + "); EGL and OSMesa need none");
         }
     }
     ~GlfwLibrary() { glfwTerminate(); }
