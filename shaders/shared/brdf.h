@@ -34,14 +34,15 @@ SHARED_FN Brdf brdf_from_metallic_roughness(vec3 base_color, float metallic, flo
 
 // f in 1/sr; cos_lobe = dot(reflect(-view, normal), light).
 SHARED_FN vec3 evaluate_brdf(Brdf brdf, float cos_lobe) {
-    float lobe = (brdf.exponent + 2.0f) / (2.0f * kSharedPi) * pow(max(cos_lobe, 0.0f), brdf.exponent);
+    // GLSL leaves pow(0, 0) undefined; the lobe of exponent 0 is 1 everywhere, as in C++.
+    float lobe = (brdf.exponent + 2.0f) / (2.0f * kSharedPi) * pow(max(cos_lobe, 1.0e-30f), brdf.exponent);
     return brdf.diffuse / kSharedPi + brdf.specular * lobe;
 }
 
 // The exponent of a Phong lobe seen under a uniform disc of the given angular radius: variances of the two narrow
-// kernels add (2 / n for the lobe, radius^2 / 2 for the disc).
+// kernels add (2 / n for the lobe, radius^2 / 2 for the disc): 2 / (2 / n + radius^2 / 2), written so that n may be 0.
 SHARED_FN float disc_widened_exponent(float exponent, float radius) {
-    return 2.0f / (2.0f / max(exponent, 1.0e-3f) + 0.5f * radius * radius);
+    return exponent / (1.0f + 0.25f * exponent * radius * radius);
 }
 
 SHARED_END
