@@ -13,12 +13,14 @@ constexpr double kMeter = 12.5;       // reflected-light meter calibration const
 constexpr double kCutShare = 0.1;     // of the pixels, at either end
 constexpr double kSaturation = 1.2;   // ISO 12232: 78 / (100 * 0.65)
 
-std::vector<float> finite_luminances(const Image& radiance) {
+/// Black pixels say nothing about how bright the picture should be: in one layer of light, or without baked light, they
+/// can be most of it, and would open the exposure until all else is white.
+std::vector<float> metered_luminances(const Image& radiance) {
     std::vector<float> values;
     values.reserve(radiance.pixels.size());
     for (const Rgb& pixel : radiance.pixels) {
         const float value = luminance(pixel);
-        if (std::isfinite(value)) values.push_back(std::max(value, kDarkest));
+        if (std::isfinite(value) && value > kDarkest) values.push_back(value);
     }
     return values;
 }
@@ -37,7 +39,7 @@ double log_average_of_middle(std::vector<float> values) {
 }  // namespace
 
 double auto_ev(const Image& radiance) {
-    return std::log2(log_average_of_middle(finite_luminances(radiance)) * 100.0 / kMeter);
+    return std::log2(log_average_of_middle(metered_luminances(radiance)) * 100.0 / kMeter);
 }
 
 double exposure_from_ev(double ev) {
