@@ -9,12 +9,15 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/png_check.h"
 
 namespace daylit {
 namespace {
 
 constexpr int kMaxChannels = 64;
 constexpr std::size_t kMaxFileBytes = std::size_t(1) << 30;
+// What a file of few bytes may declare: 4 Mpixel and beyond them no more than any honest compression reaches.
+constexpr std::size_t kFreePixels = std::size_t(1) << 22, kPixelsPerByte = 4096;
 
 /// A file's format by its first bytes, never by its name: "OpenImageIO, try everything" would hand a stranger's bytes
 /// to every reader there is. Empty when the format is none of ours.
@@ -34,15 +37,15 @@ std::string format_of(std::span<const std::uint8_t> bytes) {
     return {};
 }
 
-/// OpenImageIO's messages may hold several lines; ours are one.
+/// OpenImageIO's messages may hold several lines and quote the file's bytes; ours are one line of print.
 std::string one_line(std::string text) {
     for (char& c : text)
-        if (c == '\n' || c == '\r') c = ' ';
+        if (c < ' ' || c > '~') c = ' ';
     while (!text.empty() && text.back() == ' ') text.pop_back();
     return text.empty() ? "damaged" : text;
 }
 
-void check_declared_size(const OIIO::ImageSpec& spec, const std::string& name) {
+void check_declared_size(const OIIO::ImageSpec& spec, std::size_t file_bytes, const std::string& name) {
     const auto refuse = [&](const std::string& what) { throw Error(name, what); };
     const std::string size = std::to_string(spec.width) + " x " + std::to_string(spec.height);
     if (spec.width <= 0 || spec.height <= 0) refuse("declares an empty image of " + size);
@@ -50,6 +53,8 @@ void check_declared_size(const OIIO::ImageSpec& spec, const std::string& name) {
         std::size_t(spec.width) * std::size_t(spec.height) > kMaxImagePixels)
         refuse("declares " + size + " pixels, more than the " + std::to_string(kMaxImageSide) +
                " a side that are read; scale it down");
+    if (std::size_t(spec.width) * std::size_t(spec.height) > kFreePixels + kPixelsPerByte * file_bytes)
+        refuse("declares " + size + " pixels, which its " + std::to_string(file_bytes) + " bytes cannot hold");
     if (spec.depth > 1) refuse("is a volume, not a picture");
     if (spec.deep) refuse("holds deep samples, which are not supported; flatten it");
     if (spec.nchannels < 1 || spec.nchannels > kMaxChannels)
@@ -73,6 +78,8 @@ OpenImage open_image(std::span<const std::uint8_t> bytes, const std::string& nam
     if (bytes.empty()) throw Error(name, "is an empty file, not an image");
     const std::string format = format_of(bytes);
     if (format.empty()) throw Error(name, "is not an image of a known format (PNG, JPEG, EXR, HDR, PFM, TIFF, WebP)");
+    if (format == "png")
+        if (const std::string damage = png_damage(bytes); !damage.empty()) throw Error(name, damage);
     OpenImage image;
     image.input = OIIO::ImageInput::create(format);
     if (!image.input) throw Error(name, "OpenImageIO was built without " + format);
@@ -87,7 +94,7 @@ OpenImage open_image(std::span<const std::uint8_t> bytes, const std::string& nam
         throw Error(name, "OpenImageIO cannot read " + format + " from memory; use PNG or JPEG");
     }
     if (!image.input->open(opened, image.spec, config)) throw Error(name, one_line(image.input->geterror()));
-    check_declared_size(image.spec, name);
+    check_declared_size(image.spec, bytes.size(), name);
     return image;
 }
 

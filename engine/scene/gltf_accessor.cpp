@@ -11,7 +11,7 @@ namespace {
 
 // A few bytes of JSON can ask for any number of zeros (accessors without a view) and for the same data again and again.
 // Honest files stay far below: one read of every element, widened from bytes to floats, is 4 times the buffers.
-constexpr std::uint64_t kFreeBytes = std::uint64_t(1) << 28;
+constexpr std::uint64_t kFreeBytes = std::uint64_t(1) << 26;
 constexpr std::uint64_t kDecodedPerBufferByte = 64;
 
 /// First byte, bytes from one element to the next; base null: zeros.

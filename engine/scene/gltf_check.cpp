@@ -196,6 +196,13 @@ constexpr Rule kRules[] = {
     {"texture", "source", Type::Natural},
 };
 
+/// The rules of one kind stand together.
+std::span<const Rule> rules_of(std::string_view kind) {
+    const auto is_kind = [&](const Rule& rule) { return rule.kind == kind; };
+    const auto first = std::find_if(std::begin(kRules), std::end(kRules), is_kind);
+    return {first, std::find_if_not(first, std::end(kRules), is_kind)};
+}
+
 bool all_of(const Json& array, bool (*holds)(const Json&)) {
     return array.is_array() && std::all_of(array.begin(), array.end(), holds);
 }
@@ -231,8 +238,7 @@ class Checker {
     explicit Checker(File& file) : file_(file) {}
 
     void check(const Json& object, std::string_view kind, const std::string& where) {
-        for (const Rule& rule : kRules)
-            if (rule.kind == kind) check_property(object, rule, where);
+        for (const Rule& rule : rules_of(kind)) check_property(object, rule, where);
         check_common(object, where);
     }
 
@@ -300,6 +306,18 @@ void check_required_extensions(const Json& root, const File& file) {
             file.fail("extension " + name.get<std::string>(), "is required by the file and not supported; export without it");
 }
 
+void check_version(const Json& root, File& file) {
+    const auto text = [&](const char* key) -> std::string {
+        if (!root.contains("asset") || !root["asset"].is_object() || !root["asset"].contains(key)) return {};
+        const Json& value = root["asset"][key];
+        return value.is_string() ? one_line(value.get<std::string>()) : std::string();
+    };
+    const std::string version = text("version"), least = text("minVersion");
+    if (!version.empty() && !version.starts_with("2."))
+        file.fail("asset", "is glTF version '" + version + "'; only 2.x is read, convert it");
+    if (!least.empty() && least != "2.0") file.note("asset", "asks for at least version " + least + "; read as 2.0");
+}
+
 Json parsed(std::string_view json, const File& file) {
     try {
         Json root = Json::parse(json);
@@ -322,6 +340,7 @@ Document check_document(std::span<const std::uint8_t> bytes, File& file) {
     if (json.starts_with("\xEF\xBB\xBF")) file.note("JSON", "starts with a byte order mark, which glTF forbids");
     check_extent(json, file);
     const Json root = parsed(json, file);
+    check_version(root, file);
     if (const auto used = root.find("extensionsRequired"); used != root.end() && mismatch(*used, Type::Strings).empty())
         check_required_extensions(root, file);
     Checker(file).check(root, "file", "file");

@@ -61,14 +61,6 @@ void note_ignored_extensions(File& file) {
         if (!is_supported(extension)) file.note("extension " + one_line(extension), "is optional and ignored");
 }
 
-void check_version(File& file) {
-    const tinygltf::Asset& asset = file.model.asset;
-    if (!asset.version.starts_with("2."))
-        file.fail("asset", "is glTF version '" + one_line(asset.version) + "'; only 2.x is read, convert it");
-    if (!asset.minVersion.empty() && asset.minVersion != "2.0")
-        file.note("asset", "asks for at least version " + one_line(asset.minVersion) + "; read as 2.0");
-}
-
 }  // namespace
 
 bool is_supported(const std::string& extension) {
@@ -118,7 +110,6 @@ File open(const std::filesystem::path& path) {
     if (!read) throw Error(path.string(), error.empty() ? "is not glTF" : one_line(error));
     file.image_bytes.resize(file.model.images.size());
     for (const tinygltf::Buffer& buffer : file.model.buffers) file.buffer_bytes += buffer.data.size();
-    check_version(file);
     note_ignored_extensions(file);
     return file;
 }

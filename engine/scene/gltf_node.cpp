@@ -235,6 +235,7 @@ void read_instances(File& file, const tinygltf::Node& in, Node& node, const std:
     for (const std::size_t size : {translations.size(), scales.size(), rotations.size()})
         if (size != 0 && size != count) file.fail(where, "has instance attributes of unequal counts");
     if (count == 0) return file.note(where, "has an instancing extension without attributes; drawn once");
+    file.charge(count * sizeof(Mat4), where);
     for (std::size_t i = 0; i < count; ++i) {
         Mat4 matrix(1.0f);
         if (!rotations.empty()) {
