@@ -85,11 +85,12 @@ Level koldinghus() {
     level.name = "koldinghus";
     level.day = Day{};
     const Palette use = make_palette(level);
-    Castle c{.level = level, .use = use, .blocks = {}, .earth = 0, .paving = 0, .walls = 0, .stone = 0,
+    Castle c{.level = level, .use = use, .blocks = {}, .earth = 0, .paving = 0, .gravel = 0, .walls = 0, .stone = 0,
              .hall = 0, .treasury = 0, .cellar = 0, .arcade = 0, .gate = 0,
-             .hall_trim = {}, .treasury_trim = {}, .cellar_trim = {}, .court_trim = {}};
+             .hall_trim = {}, .treasury_trim = {}, .court_trim = {}};
     c.earth = c.blocks.add_solid({use.field_stone, use.grass, use.field_stone});
     c.paving = c.blocks.add_solid({use.field_stone, use.cobbles, use.field_stone});
+    c.gravel = c.blocks.add_solid({use.field_stone, use.gravel, use.field_stone});
     c.walls = c.blocks.add_solid({use.brick, use.ashlar, use.brick});
     c.stone = c.blocks.add_solid({use.ashlar, use.ashlar, use.ashlar});
     c.hall = c.blocks.add_room({use.plaster, use.marble, use.boards});
@@ -110,7 +111,6 @@ Level koldinghus() {
     level.add_object(c.hall_trim.take("hall windows and mouldings"));
     level.add_object(c.treasury_trim.take("treasury windows and mouldings"));
     level.add_object(c.court_trim.take("courtyard windows and mouldings"));
-    level.add_object(c.cellar_trim.take("cellar mouldings"));
     furnish_hall(c);
     furnish_treasury(c);
     furnish_cellar(c);
@@ -122,20 +122,20 @@ Level koldinghus() {
 
 void add_cameras(Castle& c) {
     Level& l = c.level;
-    l.add_camera("hall", {-13.0f, 1.95f, 13.2f}, {4.0f, 3.1f, 19.0f}, 60);
-    l.add_camera("hall_windows", {9.0f, 1.95f, 13.0f}, {-3.0f, 3.4f, 21.5f}, 62);
-    l.add_camera("hall_evening", {12.2f, 2.3f, 20.8f}, {-9.0f, 3.6f, 15.0f}, 62);
+    l.add_camera("hall", {-12.6f, 1.95f, 14.6f}, {4.0f, 3.0f, 18.6f}, 60);
+    l.add_camera("hall_windows", {9.0f, 1.95f, 13.4f}, {-3.0f, 3.2f, 21.5f}, 62);
+    l.add_camera("hall_evening", {10.0f, 2.1f, 19.6f}, {-9.0f, 3.4f, 15.4f}, 62);
     l.add_camera("treasury", {15.9f, 1.95f, 1.7f}, {20.3f, 1.6f, 7.4f}, 62);
-    l.add_camera("brass", {18.2f, 1.75f, 5.0f}, {20.8f, 1.35f, 7.0f}, 55);
-    l.add_camera("glass", {18.6f, 1.75f, 5.4f}, {17.4f, 1.35f, 7.2f}, 55);
+    l.add_camera("brass", {19.1f, 1.75f, 5.4f}, {20.9f, 1.45f, 7.1f}, 55);
+    l.add_camera("glass", {18.6f, 1.75f, 6.0f}, {17.45f, 1.4f, 7.45f}, 55);
     l.add_camera("courtyard", {9.6f, 1.65f, 8.8f}, {-6.5f, 5.2f, -9.0f}, 65);
-    l.add_camera("arcade", {-13.2f, 1.65f, -11.2f}, {6.0f, 1.7f, -12.8f}, 60);
-    l.add_camera("cellar_entrance", {-11.0f, 1.75f, 8.2f}, {-13.4f, -0.6f, 2.6f}, 60);
-    l.add_camera("cellar_maze", {-13.2f, -1.8f, -0.2f}, {-10.6f, -2.1f, -0.4f}, 65);
+    l.add_camera("arcade", {-13.2f, 1.65f, -12.6f}, {6.0f, 1.9f, -11.6f}, 60);
+    l.add_camera("cellar_entrance", {-12.2f, 1.65f, 8.4f}, {-13.3f, -0.9f, 2.6f}, 62);
+    l.add_camera("cellar_maze", {-6.4f, -1.77f, 4.3f}, {-11.4f, -2.0f, 4.1f}, 65);
     l.add_camera("door", {2.2f, 1.95f, 16.6f}, {6.2f, 1.7f, 11.6f}, 60);
-    l.add_camera("cart", {2.8f, 1.6f, 18.4f}, {-0.4f, 0.95f, 20.6f}, 55);
-    l.add_camera("figure", {3.4f, 1.65f, -3.6f}, {-1.0f, 1.1f, -8.4f}, 55);
-    l.add_camera("tower", {-19.0f, 28.2f, -11.8f}, {0.0f, 0.0f, 5.0f}, 65);
+    l.add_camera("cart", {-3.2f, 1.5f, 18.9f}, {-6.0f, 0.95f, 21.2f}, 55);
+    l.add_camera("figure", {-0.4f, 1.65f, -4.9f}, {3.4f, 1.2f, -8.2f}, 55);
+    l.add_camera("tower", {-14.1f, 27.4f, -10.1f}, {2.0f, 0.0f, 4.0f}, 65);
     l.add_camera("overview", {44.0f, 30.0f, 50.0f}, {-1.0f, 4.0f, 2.0f}, 50);
 }
 

@@ -52,7 +52,6 @@ void add_stonework(Castle& c) {
     const std::array<Vec3, 4> crown = {Vec3(-5.7f, 5.2f, 12.69f), {-5.7f, 5.2f, 12.74f}, {-4.3f, 5.2f, 12.74f}, {-4.3f, 5.2f, 12.69f}};
     b.band(foot, crown, false);
     b.bevel_box({-6.3f, kHallFloor - 0.02f, 12.6f}, {-3.7f, kHallFloor + 0.06f, 13.7f}, 0.02f);
-    // Skirting course along the north wall between the columns.
     c.level.add_object(b.take("hall columns and fireplace"));
 
     b.material(c.use.bark);
@@ -175,69 +174,16 @@ void add_feast(Castle& c) {
     c.level.add_object(b.take("feast"));
 }
 
-// A cloth with gentle folds, in front of a wall: centre of its top edge, the direction it faces, its size.
-void add_hanging(MeshBuilder& b, const Palette& use, int cloth, const Vec3& top, Facing facing, const Vec2& size, float fold) {
-    Opening frame{.origin = top, .facing = facing, .loops = {}};
-    b.at(wall_frame(frame)).material(cloth);
-    const auto wave = [=](float s, float t) { return fold * (0.35f + 0.65f * (1.0f - t)) * std::sin(s * 18.0f + 1.2f * t); };
-    const float thick = 0.012f;
-    for (bool back : {false, true})
-        b.grid(24, 10, size, [=](float s, float t) {
-            const float across = back ? 1.0f - s : s;
-            return Vec3((across - 0.5f) * size.x, (t - 1.0f) * size.y, wave(across, t) - (back ? thick : 0.0f));
-        });
-    std::vector<Vec3> front, rear;  // the hem all round closes the cloth
-    const auto edge = [&](float s, float t) {
-        const Vec3 p((s - 0.5f) * size.x, (t - 1.0f) * size.y, wave(s, t));
-        front.push_back(p);
-        rear.push_back(p - Vec3(0, 0, thick));
-    };
-    for (int i = 0; i < 24; ++i) edge(float(i) / 24, 0);
-    for (int i = 0; i < 10; ++i) edge(1, float(i) / 10);
-    for (int i = 24; i > 0; --i) edge(float(i) / 24, 1);
-    for (int i = 10; i > 0; --i) edge(0, float(i) / 10);
-    b.band(rear, front, true);
-    b.material(use.dark_oak);
-    b.tube(std::array{Vec3(-0.5f * size.x - 0.12f, 0.02f, 0), Vec3(0.5f * size.x + 0.12f, 0.02f, 0)}, 0.03f, 8);
-    b.material(use.brass);
-    for (float x : {-0.5f * size.x - 0.14f, 0.5f * size.x + 0.14f}) b.sphere({x, 0.02f, 0}, 0.05f, 12);
-    b.at(Mat4(1.0f));
-}
-
-void add_shield(MeshBuilder& b, const Palette& use, int field, const Vec3& centre, Facing facing) {
-    Opening frame{.origin = centre, .facing = facing, .loops = {}};
-    b.at(wall_frame(frame));
-    std::vector<Vec3> rim;
-    for (int i = 0; i <= 12; ++i) {  // from the left point down around to the right
-        const float t = float(i) / 12.0f, x = -0.36f + 0.72f * t;
-        rim.emplace_back(x, -0.1f - 0.42f * std::pow(std::max(std::sin(float(kPi) * t), 0.0f), 0.8f), 0.03f);
-    }
-    rim.emplace_back(0.36f, 0.38f, 0.03f);
-    rim.emplace_back(-0.36f, 0.38f, 0.03f);
-    b.material(field);
-    const Vec3 boss(0, 0.02f, 0.12f);
-    std::vector<Vec3> inner;
-    for (const Vec3& p : rim) inner.push_back(glm::mix(boss, p, 0.9f));
-    for (std::size_t i = 0; i < rim.size(); ++i) b.flat_triangle(boss, inner[i], inner[(i + 1) % rim.size()]);
-    std::vector<Vec3> back;
-    for (const Vec3& p : rim) back.emplace_back(p.x, p.y, -0.01f);
-    b.material(use.gold);
-    b.band(rim, inner, true);
-    b.band(back, rim, true);
-    b.material(use.steel).sphere({0, 0.02f, 0.1f}, 0.06f, 14);
-    b.at(Mat4(1.0f));
-}
-
 void add_cloth(Castle& c) {
     MeshBuilder b;
     const Palette& use = c.use;
-    add_hanging(b, use, use.tapestry, {-10.4f, 5.4f, 12.06f}, Facing::South, {3.0f, 4.0f}, 0.02f);
-    add_hanging(b, use, use.tapestry, {0.0f, 5.4f, 12.06f}, Facing::South, {3.0f, 4.0f}, 0.02f);
-    add_hanging(b, use, use.tapestry, {10.4f, 5.4f, 12.06f}, Facing::South, {3.0f, 4.0f}, 0.02f);
-    add_hanging(b, use, use.tapestry, {13.93f, 6.4f, 17.5f}, Facing::West, {3.4f, 4.6f}, 0.02f);
+    add_hanging(b, c, use.tapestry, {-10.4f, 5.9f, 12.08f}, Facing::South, {2.7f, 4.05f}, 0.02f);
+    add_hanging(b, c, use.tapestry, {0.0f, 5.9f, 12.08f}, Facing::South, {2.7f, 4.05f}, 0.02f);
+    add_hanging(b, c, use.tapestry, {10.4f, 5.9f, 12.08f}, Facing::South, {2.7f, 4.05f}, 0.02f);
+    add_hanging(b, c, use.tapestry, {13.92f, 7.2f, 17.5f}, Facing::West, {3.4f, 5.1f}, 0.02f);
     for (float x : {-7.8f, -2.6f, 2.6f, 7.8f})
         for (float z : {14.4f, 20.6f})
-            add_hanging(b, use, use.banner, {x, 8.62f, z}, Facing::West, {1.0f, 2.3f}, 0.035f);
+            add_hanging(b, c, use.banner, {x, 8.62f, z}, Facing::West, {1.0f, 2.3f}, 0.035f);
     // Gauze on either side of the throne.
     b.material(use.gauze);
     for (float z : {15.7f, 19.3f})
@@ -335,12 +281,12 @@ void add_chandeliers(Castle& c) {
         }
         b.material(c.use.iron);
         b.sphere(centre, 0.09f, 12);
-        for (int i = 0; i < 28; ++i) {  // chain to the ceiling
-            const float y = centre.y + 1.32f + 0.11f * float(i);
+        for (int i = 0; i < 20; ++i) {  // chain to the ceiling
+            const float y = centre.y + 1.34f + 0.16f * float(i);
             if (y > 9.2f) break;
             const Vec3 side = i % 2 ? Vec3(0.03f, 0, 0) : Vec3(0, 0, 0.03f);
-            b.tube(std::array{centre + Vec3(0, y - centre.y - 0.06f, 0), Vec3(x, y, centre.z) + side, Vec3(x, y + 0.07f, centre.z)}, 0.01f, 5);
-            b.tube(std::array{centre + Vec3(0, y - centre.y - 0.06f, 0), Vec3(x, y, centre.z) - side, Vec3(x, y + 0.07f, centre.z)}, 0.01f, 5);
+            b.tube(std::array{centre + Vec3(0, y - centre.y - 0.09f, 0), Vec3(x, y, centre.z) + side, Vec3(x, y + 0.1f, centre.z)}, 0.01f, 4);
+            b.tube(std::array{centre + Vec3(0, y - centre.y - 0.09f, 0), Vec3(x, y, centre.z) - side, Vec3(x, y + 0.1f, centre.z)}, 0.01f, 4);
         }
         // The lamp shines from the middle of the ring, where no candle is in its way.
         c.level.add_lamp({"chandelier " + std::to_string(number++), Rgb(1.0f, 0.56f, 0.22f) * 620.0f}, centre + Vec3(0, 0.26f, 0));
@@ -348,9 +294,45 @@ void add_chandeliers(Castle& c) {
     c.level.add_object(b.take("chandeliers"));
 }
 
+// Oak panelling 1.1 m high: stiles and rails around sunk fields, under a moulded top.
+void add_panelling(MeshBuilder& b, const Palette& use, const Vec3& start, Facing facing, float length) {
+    Opening frame{.origin = start, .facing = facing, .loops = {}};
+    b.at(wall_frame(frame)).material(use.dark_oak);
+    const float h = 1.1f;
+    const int fields = std::max(1, int(length / 0.62f + 0.5f));
+    b.box({0, -0.01f, -0.02f}, {length, h, 0.02f}, Mapping::Grain);
+    b.bevel_box({0, -0.01f, -0.01f}, {length, 0.18f, 0.055f}, 0.012f, Mapping::Grain);
+    b.bevel_box({0, h - 0.14f, -0.01f}, {length, h, 0.05f}, 0.008f, Mapping::Grain);
+    b.bevel_box({-0.01f, h - 0.02f, -0.02f}, {length + 0.01f, h + 0.04f, 0.09f}, 0.018f, Mapping::Grain);
+    for (int i = 0; i <= fields; ++i) {
+        const float x = (length - 0.1f) * float(i) / float(fields);
+        b.bevel_box({x, 0.17f, -0.01f}, {x + 0.1f, h - 0.13f, 0.045f}, 0.008f, Mapping::Grain);
+    }
+    b.at(Mat4(1.0f));
+}
+
+void add_panels(Castle& c) {
+    MeshBuilder b;
+    const auto wall = [&](const Vec3& start, Facing facing, float length) {
+        add_panelling(b, c.use, start + Vec3(0, kHallFloor, 0), facing, length);
+    };
+    // North wall (facing south, x to the right) between columns, hearth and door; south wall; west wall.
+    wall({-12.66f, 0, 12}, Facing::South, 4.52f);
+    wall({-7.46f, 0, 12}, Facing::South, 0.86f);
+    wall({-3.4f, 0, 12}, Facing::South, 0.46f);
+    wall({-2.26f, 0, 12}, Facing::South, 4.52f);
+    wall({2.94f, 0, 12}, Facing::South, 2.06f);
+    wall({8.14f, 0, 12}, Facing::South, 2.06f);
+    for (float x : {-7.8f, -2.6f, 2.6f, 7.8f}) wall({x - 0.34f, 0, 23}, Facing::North, 4.52f);
+    wall({10.2f, 0, 23}, Facing::North, 2.06f);
+    wall({-14, 0, 22.6f}, Facing::East, 10.2f);
+    c.level.add_object(b.take("hall panelling"));
+}
+
 }  // namespace
 
 void furnish_hall(Castle& c) {
+    add_panels(c);
     add_timber(c);
     add_stonework(c);
     add_feast(c);

@@ -1,4 +1,5 @@
 // Things that stand in more than one room.
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -92,6 +93,62 @@ void add_column(MeshBuilder& b, int material, const Vec3& foot, float r, float h
                                 Vec2(1.3f * r, top - 0.02f), Vec2(1.36f * r, top + 0.01f), Vec2(0, top + 0.01f)};
     b.lathe(profile, 24);
     b.bevel_box({-w, top, -w}, {w, height + 0.03f, w}, 0.025f);
+    b.at(Mat4(1.0f));
+}
+
+// A cloth with gentle folds, in front of a wall: centre of its top edge, the direction it faces, its size.
+void add_hanging(MeshBuilder& b, const Castle& c, int cloth, const Vec3& top, Facing facing, const Vec2& size, float fold) {
+    const Palette& use = c.use;
+    const Vec2 picture = c.level.surfaces[std::size_t(cloth)].tile;  // shown once, whatever the size
+    Opening frame{.origin = top, .facing = facing, .loops = {}};
+    b.at(wall_frame(frame)).material(cloth);
+    const auto wave = [=](float s, float t) { return fold * (0.35f + 0.65f * (1.0f - t)) * std::sin(s * 15.0f + 1.2f * t); };
+    const float thick = 0.012f;
+    const int columns = 18, rows = 4;
+    for (bool back : {false, true})
+        b.grid(columns, rows, picture, [=](float s, float t) {
+            const float across = back ? 1.0f - s : s;
+            return Vec3((across - 0.5f) * size.x, (t - 1.0f) * size.y, wave(across, t) - (back ? thick : 0.0f));
+        });
+    std::vector<Vec3> front, rear;  // the hem all round closes the cloth
+    const auto edge = [&](float s, float t) {
+        const Vec3 p((s - 0.5f) * size.x, (t - 1.0f) * size.y, wave(s, t));
+        front.push_back(p);
+        rear.push_back(p - Vec3(0, 0, thick));
+    };
+    for (int i = 0; i < columns; ++i) edge(float(i) / columns, 0);
+    for (int i = 0; i < rows; ++i) edge(1, float(i) / rows);
+    for (int i = columns; i > 0; --i) edge(float(i) / columns, 1);
+    for (int i = rows; i > 0; --i) edge(0, float(i) / rows);
+    b.band(rear, front, true);
+    b.material(use.dark_oak);
+    b.tube(std::array{Vec3(-0.5f * size.x - 0.12f, 0.02f, 0), Vec3(0.5f * size.x + 0.12f, 0.02f, 0)}, 0.03f, 8);
+    b.material(use.brass);
+    for (float x : {-0.5f * size.x - 0.14f, 0.5f * size.x + 0.14f}) b.sphere({x, 0.02f, 0}, 0.05f, 12);
+    b.at(Mat4(1.0f));
+}
+
+void add_shield(MeshBuilder& b, const Palette& use, int field, const Vec3& centre, Facing facing) {
+    Opening frame{.origin = centre, .facing = facing, .loops = {}};
+    b.at(wall_frame(frame));
+    std::vector<Vec3> rim;
+    for (int i = 0; i <= 12; ++i) {  // from the left point down around to the right
+        const float t = float(i) / 12.0f, x = -0.36f + 0.72f * t;
+        rim.emplace_back(x, -0.1f - 0.42f * std::pow(std::max(std::sin(float(kPi) * t), 0.0f), 0.8f), 0.03f);
+    }
+    rim.emplace_back(0.36f, 0.38f, 0.03f);
+    rim.emplace_back(-0.36f, 0.38f, 0.03f);
+    b.material(field);
+    const Vec3 boss(0, 0.02f, 0.12f);
+    std::vector<Vec3> inner;
+    for (const Vec3& p : rim) inner.push_back(glm::mix(boss, p, 0.9f));
+    for (std::size_t i = 0; i < rim.size(); ++i) b.flat_triangle(boss, inner[i], inner[(i + 1) % rim.size()]);
+    std::vector<Vec3> back;
+    for (const Vec3& p : rim) back.emplace_back(p.x, p.y, -0.01f);
+    b.material(use.gold);
+    b.band(rim, inner, true);
+    b.band(back, rim, true);
+    b.material(use.steel).sphere({0, 0.02f, 0.1f}, 0.06f, 14);
     b.at(Mat4(1.0f));
 }
 

@@ -55,18 +55,15 @@ void add_door(Castle& c) {
     door.name = "door";
     // Seen from the hall (facing north) the hinge is on the right, at the larger x.
     door.translation = {6.2f + 0.93f, kHallFloor, 11.9f};
+    door.rotation = glm::angleAxis(float(56.0 * kDegree), Vec3(0, 1, 0));
     door.mesh = c.level.add_mesh(b.take("door"));
     const int node = c.level.add_node(door);
     LevelChannel swing{node, AnimationPath::Rotation, {}, {}};
-    // Shut, open to 105 degrees, pause, shut again; eased by a cosine.
-    const auto key = [&](float t, double degrees) {
-        swing.times.push_back(t);
-        swing.values.push_back(turn({0, 1, 0}, degrees * kDegree));
-    };
-    key(0, 0);
-    for (int i = 0; i <= 8; ++i) key(2.0f + 0.35f * float(i), 52.5 * (1.0 - std::cos(kPi * i / 8)));
-    for (int i = 0; i <= 8; ++i) key(8.0f + 0.35f * float(i), 52.5 * (1.0 + std::cos(kPi * i / 8)));
-    key(14.0f, 0);
+    // Between 8 and 104 degrees, as in a slow draught; half open at the start.
+    for (int i = 0; i <= 32; ++i) {
+        swing.times.push_back(0.5f * float(i));
+        swing.values.push_back(turn({0, 1, 0}, (56.0 + 48.0 * std::sin(2.0 * kPi * (i % 32) / 32)) * kDegree));
+    }
     c.level.animations.push_back({"door swings", {swing}});
 }
 
@@ -90,7 +87,7 @@ void add_wheel(MeshBuilder& b, const Palette& use, float radius) {
 
 void add_cart(Castle& c) {
     const Palette& use = c.use;
-    const float radius = 0.24f, from = -8.5f, to = 7.5f;
+    const float radius = 0.24f, from = -6.0f, to = 7.5f;
     MeshBuilder b;
     b.material(use.oak);
     for (int i = 0; i < 5; ++i) b.bevel_box({-0.5f, 0.62f, -0.325f + 0.13f * float(i) + 0.002f}, {0.5f, 0.66f, -0.195f + 0.13f * float(i) - 0.002f}, 0.006f, Mapping::Grain);

@@ -159,7 +159,7 @@ void furnish_treasury(Castle& c) {
     const Vec3 brass_at(20.9f, y, 7.1f), glass_at(17.5f, y, 7.4f);
     add_plinth(b, c.use.ashlar, brass_at, 0.7f, 0.62f);
     add_plinth(b, c.use.ashlar, glass_at, 0.5f, 1.0f);
-    add_bookshelf(b, c.use, placed({22.85f - 2.25f, y, 1.0f}, 0.0f));
+    add_bookshelf(b, c.use, placed({20.5f, y, 1.0f}, 0.0f));
     add_chest(b, c.use, placed({22.55f, y, 3.2f}, -float(kPi) / 2));
     add_chest(b, c.use, placed({16.0f, y, 9.2f}, float(kPi)));
     // A cornice under the ceiling and a skirting, and two engaged columns on the long wall.
@@ -179,7 +179,17 @@ void furnish_treasury(Castle& c) {
     b.at(Vec3(19.6f, y + 0.76f, 1.6f)).material(c.use.gold);
     b.lathe(std::array{Vec2(0, 0), Vec2(0.1f, 0), Vec2(0.1f, 0.02f), Vec2(0.03f, 0.06f), Vec2(0.03f, 0.12f), Vec2(0.24f, 0.22f), Vec2(0.25f, 0.23f), Vec2(0.03f, 0.15f), Vec2(0, 0.15f)}, 28);
     b.at(Mat4(1.0f));
+    b.material(c.use.dark_oak);  // ceiling beams
+    for (int i = 0; i < 6; ++i) {
+        const float x = x0 + 0.9f + 1.24f * float(i);
+        b.beam({x, top - 0.12f, z0 - 0.05f}, {x, top - 0.12f, z1 + 0.05f}, 0.22f, 0.3f);
+    }
     c.level.add_object(b.take("treasury furniture"));
+    add_hanging(b, c, c.use.tapestry, {23.13f, 4.3f, 7.6f}, Facing::West, {2.2f, 3.3f}, 0.02f);
+    add_hanging(b, c, c.use.tapestry, {15.27f, 4.3f, 8.2f}, Facing::East, {2.0f, 3.0f}, 0.02f);
+    add_shield(b, c.use, c.use.red_wool, {15.2f, 3.1f, 2.6f}, Facing::East);
+    add_shield(b, c.use, c.use.blue_wool, {17.2f, 3.3f, 1.0f}, Facing::South);
+    c.level.add_object(b.take("treasury hangings"));
 
     // The glass: a solid drop with a waist, smooth all over.
     std::vector<Vec2> drop;

@@ -76,7 +76,7 @@ void add_blind_window(Castle& c, MeshBuilder& b, const Vec3& foot, Facing facing
     add_opening(c.blocks, b, o);
     add_surround(b, o, false, 0.16f, 0.05f, c.use.ashlar);
     add_tracery(b, o, o.loops.back(), head, spring,
-                {.depth = 0.3f, .lights = width > 1.0f ? 2 : 1, .transoms = 2, .bar = 0.035f, .bar_material = c.use.ashlar});
+                {.depth = 0.3f, .lights = width > 1.0f ? 2 : 1, .transoms = 2, .bar = 0.035f, .sides = 4, .bar_material = c.use.ashlar});
     b.at(wall_frame(o)).material(c.use.dark_glass);
     std::vector<Vec3> pane;
     for (const Vec2& p : o.loops.back().points) pane.emplace_back(p, -0.35f);
@@ -156,6 +156,8 @@ void build_grounds(Castle& c) {
 
 void build_courtyard(Castle& c) {
     Blocks& g = c.blocks;
+    g.fill({-28, -0.3f, -24}, {27.4f, 0, 27.2f}, c.gravel);  // around the castle
+    g.fill({-40, -0.3f, -6.2f}, {-28, 0, -2.8f}, c.gravel);  // the way to the gate
     g.fill({-14, -0.3f, -14}, {14, 0, 11}, c.paving);
     g.fill({-14, 0, -15.2f}, {24.4f, 8.4f, -10}, c.walls);   // north wing
     g.fill({-21, 0, -10}, {-14, 7.4f, 11}, c.walls);          // west wing
@@ -298,7 +300,7 @@ void build_cellar(Castle& c) {
     const float rise = 0.18f, tread = 0.3f, top = 6.0f;
     for (int i = 0; i < 18; ++i) {
         const float z = top - tread * float(i), floor = -rise * float(i + 1);
-        g.carve({-14, floor, z - tread}, {-12.4f, z - tread > 0.85f ? 0.0f : kCellarCeiling, z}, c.open_air);
+        g.carve({-14, floor, z - tread}, {-12.4f, z - tread > 0.85f ? 0.0f : kCellarCeiling, z}, c.cellar);
     }
     // Parapet around the well of the stairs.
     g.fill({-12.4f, 0, 0.6f}, {-12.1f, 0.95f, 6.0f}, c.walls);

@@ -112,10 +112,10 @@ void add_walk_cycle(Level& level, const std::vector<int>& joints, float period) 
     level.animations.push_back(walk);
 }
 
-// A stadium-shaped way: along the arcade, out through its last bay, back over the courtyard.
+// A stadium-shaped way: west over the courtyard, in by the arcade's first bay, along it, out by its last.
 void add_way(Level& level, int node, float speed) {
-    const float half = 9.35f, radius = 2.7f, middle_z = -9.7f;
-    const float straight = 2.0f * half, bend = float(kPi) * radius;
+    const float half = 9.35f, radius = 2.7f, middle_z = -9.7f, start_x = 3.0f;
+    const float straight = 2.0f * half, bend = float(kPi) * radius, quarter = float(kPi) / 2;
     LevelAnimation way{"way", {{node, AnimationPath::Translation, {}, {}}, {node, AnimationPath::Rotation, {}, {}}}};
     const auto key = [&](float s, const Vec3& p, float yaw) {
         for (LevelChannel& c : way.channels) c.times.push_back(s / speed);
@@ -123,16 +123,18 @@ void add_way(Level& level, int node, float speed) {
         way.channels[1].values.push_back(quaternion({0, 1, 0}, yaw));
     };
     const int steps = 16;
-    const float quarter = float(kPi) / 2;
-    key(0, {-half, 0, middle_z - radius}, quarter);
-    for (int i = 0; i <= steps; ++i) {  // turning right, from east to west by south
+    // Turning right all the way; quaternions at the seam differ by sign alone, which turns nothing.
+    const float west = start_x + half;
+    key(0, {start_x, 0, middle_z + radius}, -quarter);
+    for (int i = 0; i <= steps; ++i) {
         const float t = float(i) / steps, a = float(kPi) * t;
-        key(straight + bend * t, {half + radius * std::sin(a), 0, middle_z - radius * std::cos(a)}, quarter - a);
+        key(west + bend * t, {-half - radius * std::sin(a), 0, middle_z + radius * std::cos(a)}, -quarter - a);
     }
     for (int i = 0; i <= steps; ++i) {
         const float t = float(i) / steps, a = float(kPi) * t;
-        key(2.0f * straight + bend * (1.0f + t), {-half - radius * std::sin(a), 0, middle_z + radius * std::cos(a)}, -quarter - a);
+        key(west + straight + bend * (1.0f + t), {half + radius * std::sin(a), 0, middle_z - radius * std::cos(a)}, -3.0f * quarter - a);
     }
+    key(2.0f * (straight + bend), {start_x, 0, middle_z + radius}, -5.0f * quarter);
     level.animations.push_back(way);
 }
 
@@ -177,15 +179,15 @@ LevelMesh brass_knight(int material) {
     add({0, 0.98f, -0.08f}, {0, 0.3f, -0.13f}, 0.09f, 0.125f, 0.03f, {1.5f, 1, 0.5f});
     add({0, 0.3f, -0.13f}, {0, 0.1f, -0.15f}, 0.125f, 0.14f, 0.03f, {1.5f, 1, 0.5f});
     add({0, 0.015f, 0.03f}, {0, 0.015f, 0.03f}, 0.24f, 0.24f, 0.015f, {1, 0.16f, 1});
-    return polygonise(s, 0.0125f, {material}, false, "brass figure");
+    return polygonise(s, 0.018f, {material}, false, "brass figure");
 }
 
 void add_walker(Castle& c) {
     Level& level = c.level;
     LevelNode walker;
     walker.name = "walker";
-    walker.translation = {-9.35f, 0, -12.4f};
-    walker.rotation = glm::angleAxis(float(kPi) / 2, Vec3(0, 1, 0));
+    walker.translation = {3.0f, 0, -7.0f};
+    walker.rotation = glm::angleAxis(-float(kPi) / 2, Vec3(0, 1, 0));
     const int way = level.add_node(walker);
     LevelSkin skin{"walker", {}, {}};
     for (std::size_t j = 0; j < kJoints; ++j) {

@@ -142,7 +142,7 @@ void MeshBuilder::bevel_box(const Vec3& low, const Vec3& high, float bevel, Mapp
         const int g = (f + 1) % 3, h = (f + 2) % 3;
         for (int side = 0; side < 4; ++side) {
             const int bits = (side & 1 ? 1 << g : 0) | (side & 2 ? 1 << h : 0), end = bits | 1 << f;
-            const bool flip = ((side & 1) != 0) == ((side & 2) != 0);
+            const bool flip = ((side & 1) != 0) != ((side & 2) != 0);
             const std::array<Vec3, 4> strip = {corner(bits, g), corner(bits, h), corner(end, h), corner(end, g)};
             face(flip ? std::array{strip[3], strip[2], strip[1], strip[0]} : strip);
         }

@@ -206,7 +206,7 @@ void add_tracery(MeshBuilder& builder, const Opening& o, const Loop& loop, Head 
     const auto bar = [&](const std::vector<Vec2>& line, float radius) {
         std::vector<Vec3> path;
         for (const Vec2& p : line) path.emplace_back(p, z);
-        builder.tube(path, radius, 6);
+        builder.tube(path, radius, t.sides);
     };
     const auto shifted = [](std::vector<Vec2> points, const Vec2& by) {
         for (Vec2& p : points) p += by;
@@ -233,8 +233,8 @@ void add_tracery(MeshBuilder& builder, const Opening& o, const Loop& loop, Head 
         const float crown = spring + head_height(head, width), lesser_crown = spring + head_height(lesser, pane);
         const float radius = 0.42f * (crown - lesser_crown), y = lesser_crown + 0.5f * (crown - lesser_crown);
         std::vector<Vec2> ring;
-        for (int i = 0; i <= 20; ++i) {
-            const double a = 2.0 * kPi * i / 20;
+        for (int i = 0; i <= 16; ++i) {
+            const double a = 2.0 * kPi * i / 16;
             ring.emplace_back(radius * float(std::cos(a)), y + radius * float(std::sin(a)));
         }
         bar(ring, t.bar);

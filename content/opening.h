@@ -50,6 +50,7 @@ struct Tracery {
     int lights = 2;            // panes side by side
     int transoms = 2;
     float bar = 0.06f;         // radius
+    int sides = 6;             // of a bar's section
     int bar_material = 0;
     int sheet_material = -1;   // lattice or glass; -1: none
 };
