@@ -1,6 +1,8 @@
 // The koldinghus level: order of building. Nothing here is measured from the real castle; ORIGINS.md says what it follows.
 #include "content/castle.h"
 
+#include <utility>
+
 #include "content/levels.h"
 #include "content/textures.h"
 
@@ -107,7 +109,8 @@ Level koldinghus() {
     const std::pair<const char*, int> shells[] = {{"castle and grounds", c.open_air}, {"hall walls", c.hall},
                                                   {"treasury walls", c.treasury}, {"cellar walls", c.cellar},
                                                   {"arcade walls", c.arcade}, {"gate walls", c.gate}};
-    for (const auto& [name, room] : shells) level.add_object(c.blocks.faces(name, room));
+    for (const auto& [name, room] : shells)
+        if (LevelMesh faces = c.blocks.faces(name, room); !faces.parts.empty()) level.add_object(std::move(faces));
     level.add_object(c.hall_trim.take("hall windows and mouldings"));
     level.add_object(c.treasury_trim.take("treasury windows and mouldings"));
     level.add_object(c.court_trim.take("courtyard windows and mouldings"));
