@@ -68,7 +68,7 @@ class CoverageOfTriangles {
 };
 
 template <class T>
-T interpolate(const std::vector<T>& values, const std::uint32_t* corner, const Vec2& b) {
+inline T interpolate(const std::vector<T>& values, const std::uint32_t* corner, const Vec2& b) {
     return values[corner[0]] * (1.0f - b.x - b.y) + values[corner[1]] * b.x + values[corner[2]] * b.y;
 }
 
@@ -78,6 +78,25 @@ std::array<Vec2, 2> interpolate_uvs(const WorldMesh& mesh, const std::uint32_t* 
         uvs[set] = mesh.uvs[corner[0]][set] * (1.0f - b.x - b.y) + mesh.uvs[corner[1]][set] * b.x +
                    mesh.uvs[corner[2]][set] * b.y;
     return uvs;
+}
+
+/// Of a triangle: what varies over it. Most walls are flat, plain and white, and need none of it fetched.
+enum Detail : std::uint8_t { kCurved = 1, kTextured = 2, kColored = 4, kBumped = 8 };
+
+std::uint8_t details_of(const Scene& scene, const WorldMesh& mesh, std::uint32_t triangle, const Vec3& normal) {
+    const Material& m = scene.materials[mesh.materials[triangle]];
+    std::uint8_t details = 0;
+    if (m.normal_texture.texture >= 0) details |= kBumped;
+    for (const TextureRef* ref :
+         {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.emission_texture})
+        if (ref->texture >= 0) details |= kTextured;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t vertex = mesh.indices[3 * std::size_t(triangle) + k];
+        if (mesh.colors[vertex] != Rgba(1.0f)) details |= kColored;
+        // Within the rounding of files that store normals as floats; either sign, as the winding decides.
+        if (!(std::abs(glm::dot(mesh.normals[vertex], normal)) > 1.0f - 1e-6f)) details |= kCurved;
+    }
+    return details;
 }
 
 Vec3 normalized_or(const Vec3& v, const Vec3& fallback) {
@@ -151,6 +170,7 @@ struct RayScene::State {
     std::vector<Vec3> normals;                          // one per triangle of the mesh; zero: left out
     std::array<std::vector<std::uint32_t>, 2> members;  // triangles of the two geometries: opaque, varying coverage
     std::vector<bool> traced;
+    std::vector<std::uint8_t> details;                  // one per triangle: what surface_point must interpolate
     std::vector<Ray>* log = nullptr;
     Owned<RTCDevice> device;
     Owned<RTCScene> accelerator;
@@ -168,6 +188,7 @@ struct RayScene::State {
     void build();
     void attach(unsigned geometry_id, RTCBuffer vertices);
     float alpha(std::uint32_t triangle, const Vec2& barycentric) const;
+    Vec3 bent_normal(const Hit& hit, const SurfacePoint& point) const;
 
     static void filter_closest(const RTCFilterFunctionNArguments* args);
     static void filter_occluded(const RTCFilterFunctionNArguments* args);
@@ -178,11 +199,13 @@ void RayScene::State::sort_triangles() {
     SeenTriangles seen(mesh);
     normals.resize(mesh.triangle_count(), Vec3(0.0f));
     traced.resize(mesh.triangle_count(), false);
+    details.resize(mesh.triangle_count(), 0);
     for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
         const std::uint32_t* corner = &mesh.indices[3 * std::size_t(t)];
         const Vec3 normal =
             winding_normal(mesh.positions[corner[0]], mesh.positions[corner[1]], mesh.positions[corner[2]]);
         normals[t] = normal;
+        details[t] = details_of(scene, mesh, t, normal);
         const Coverage share = coverage(t);
         if (normal == Vec3(0.0f) || share == Coverage::None) continue;
         if (share == Coverage::Full && seen.add(t)) continue;
@@ -239,6 +262,22 @@ float RayScene::State::alpha(std::uint32_t triangle, const Vec2& barycentric) co
     return base_color(scene, material, interpolate_uvs(mesh, corner, barycentric),
                       interpolate(mesh.colors, corner, barycentric))
         .a;
+}
+
+/// The shading normal on the side of the geometric one.
+Vec3 RayScene::State::bent_normal(const Hit& hit, const SurfacePoint& point) const {
+    const std::uint32_t* corner = &mesh.indices[3 * std::size_t(hit.triangle)];
+    const Material& material = scene.materials[point.material];
+    // Vertex normals may point against the winding in careless files; the winding decides.
+    Vec3 normal = normalized_or(interpolate(mesh.normals, corner, hit.barycentric), hit.normal);
+    if (glm::dot(normal, hit.normal) < 0.0f) normal = -normal;
+    if (material.normal_texture.texture >= 0)
+        normal = shading_normal(scene, material, point.uvs, normal,
+                                interpolate(mesh.tangents, corner, hit.barycentric));
+    // A steep bump may lean under the surface; mirrored above it, it still sees the light it should.
+    const float below = glm::dot(normal, hit.normal);
+    if (below < 0.0f) normal = normalized_or(normal - 2.0f * below * hit.normal, hit.normal);
+    return normal;
 }
 
 // Only single rays are traced, so every filter call has one ray and one hit.
@@ -316,24 +355,15 @@ float RayScene::transmittance(const Ray& ray) const {
 SurfacePoint RayScene::surface_point(const Ray& ray, const Hit& hit) const {
     const WorldMesh& mesh = state_->mesh;
     const std::uint32_t* corner = &mesh.indices[3 * std::size_t(hit.triangle)];
-    const Material& material = state_->scene.materials[mesh.materials[hit.triangle]];
+    const std::uint8_t details = state_->details[hit.triangle];
     SurfacePoint point;
     point.position = interpolate(mesh.positions, corner, hit.barycentric);
-    point.uvs = interpolate_uvs(mesh, corner, hit.barycentric);
-    point.color = interpolate(mesh.colors, corner, hit.barycentric);
+    point.uvs = details & kTextured ? interpolate_uvs(mesh, corner, hit.barycentric) : std::array<Vec2, 2>{};
+    point.color = details & kColored ? interpolate(mesh.colors, corner, hit.barycentric) : Rgba(1.0f);
     point.material = mesh.materials[hit.triangle];
 
-    // Vertex normals may point against the winding in careless files; the winding decides.
-    Vec3 normal = normalized_or(interpolate(mesh.normals, corner, hit.barycentric), hit.normal);
-    if (glm::dot(normal, hit.normal) < 0.0f) normal = -normal;
-    if (material.normal_texture.texture >= 0)
-        normal = shading_normal(state_->scene, material, point.uvs, normal,
-                                interpolate(mesh.tangents, corner, hit.barycentric));
-    // A steep bump may lean under the surface; mirrored above it, it still sees the light it should.
-    const float below = glm::dot(normal, hit.normal);
-    if (below < 0.0f) normal = normalized_or(normal - 2.0f * below * hit.normal, hit.normal);
-
     const bool from_behind = glm::dot(ray.direction, hit.normal) > 0.0f;
+    const Vec3 normal = details & (kCurved | kBumped) ? state_->bent_normal(hit, point) : hit.normal;
     point.geometric_normal = from_behind ? -hit.normal : hit.normal;
     point.shading_normal = from_behind ? -normal : normal;
     return point;

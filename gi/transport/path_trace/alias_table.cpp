@@ -1,7 +1,5 @@
 #include "gi/transport/path_trace/alias_table.h"
 
-#include <algorithm>
-
 namespace daylit {
 
 AliasTable::AliasTable(std::span<const double> weights) {
@@ -22,7 +20,7 @@ AliasTable::AliasTable(std::span<const double> weights) {
     while (!small.empty() && !large.empty()) {
         const std::uint32_t poor = small.back(), rich = large.back();
         small.pop_back();
-        slots_[poor] = {float(scaled[poor]), rich};
+        slots_[poor] = {std::uint32_t(scaled[poor] * 0x1p32), rich};
         scaled[rich] -= 1.0 - scaled[poor];
         if (scaled[rich] < 1.0) {
             large.pop_back();
@@ -30,13 +28,7 @@ AliasTable::AliasTable(std::span<const double> weights) {
         }
     }
     for (const auto* rest : {&small, &large})
-        for (const std::uint32_t i : *rest) slots_[i] = {1.0f, i};
-}
-
-std::uint32_t AliasTable::sample(double u) const {
-    const double position = u * double(slots_.size());
-    const auto i = std::min(std::uint32_t(position), std::uint32_t(slots_.size() - 1));
-    return position - double(i) < double(slots_[i].keep) ? i : slots_[i].other;
+        for (const std::uint32_t i : *rest) slots_[i] = {~0u, i};
 }
 
 }  // namespace daylit

@@ -9,18 +9,21 @@ namespace daylit {
 class AliasTable {
   public:
     AliasTable() = default;
-    /// Weights are finite and not negative; when all are zero the table is empty.
+    /// Fewer than 2^32 weights, finite and not negative; when all are zero the table is empty.
     explicit AliasTable(std::span<const double> weights);
 
     bool empty() const { return slots_.empty(); }
-    /// u uniform in [0,1).
-    std::uint32_t sample(double u) const;
+    /// bits   64 uniform random bits: the high half chooses a slot, the low half which of its two indices.
+    std::uint32_t sample(std::uint64_t bits) const {
+        const auto i = std::uint32_t(((bits >> 32) * slots_.size()) >> 32);
+        return std::uint32_t(bits) < slots_[i].keep ? i : slots_[i].other;
+    }
     /// Chance of index i; 0 when empty.
     float probability(std::uint32_t i) const { return empty() ? 0.0f : probabilities_[i]; }
 
   private:
     struct Slot {
-        float keep = 1.0f;
+        std::uint32_t keep = ~0u;  // chance of the slot's own index, in units of 2^-32
         std::uint32_t other = 0;
     };
     std::vector<Slot> slots_;

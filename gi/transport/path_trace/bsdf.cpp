@@ -22,18 +22,15 @@ Reflection Reflection::irradiance(const Vec3& geometric_normal, const Vec3& shad
                       shading_normal, shading_normal);
 }
 
-Rgb Reflection::evaluate(const Vec3& light) const {
+Reflection::Value Reflection::evaluate_with_pdf(const Vec3& light) const {
     const float cosine = glm::dot(shading_normal_, light);
-    if (cosine <= 0.0f || glm::dot(geometric_normal_, light) <= 0.0f) return Rgb(0.0f);
-    if (lobe_chance_ <= 0.0f) return brdf_.diffuse * (cosine / kPiF);
-    return glsl::evaluate_brdf(brdf_, glm::dot(mirror_, light)) * cosine;
-}
-
-float Reflection::pdf(const Vec3& light) const {
-    if (lobe_chance_ < 0.0f) return 0.0f;
-    const float diffuse = pdf_cosine_hemisphere(glm::dot(shading_normal_, light));
-    if (lobe_chance_ == 0.0f) return diffuse;
-    return glm::mix(diffuse, pdf_phong_lobe(brdf_.exponent, glm::dot(mirror_, light)), lobe_chance_);
+    if (lobe_chance_ < 0.0f || cosine <= 0.0f || glm::dot(geometric_normal_, light) <= 0.0f) return {};
+    if (lobe_chance_ == 0.0f) return {brdf_.diffuse * (cosine / kPiF), cosine / kPiF};
+    // As evaluate_brdf() of shaders/shared/brdf.h, but the one power serves the value and the density.
+    const float cos_lobe = glm::dot(mirror_, light);
+    const float lobe = cos_lobe > 0.0f ? std::pow(cos_lobe, brdf_.exponent) / (2.0f * kPiF) : 0.0f;
+    return {(brdf_.diffuse / kPiF + brdf_.specular * ((brdf_.exponent + 2.0f) * lobe)) * cosine,
+            glm::mix(pdf_cosine_hemisphere(cosine), (brdf_.exponent + 1.0f) * lobe, lobe_chance_)};
 }
 
 std::optional<Reflection::Sample> Reflection::sample(Random& random) const {
@@ -43,15 +40,9 @@ std::optional<Reflection::Sample> Reflection::sample(Random& random) const {
     const Vec3 direction = glm::normalize(
         lobe ? Frame(mirror_).to_world(sample_phong_lobe(brdf_.exponent, u, v))
              : Frame(shading_normal_).to_world(sample_cosine_hemisphere(u, v)));
-    if (lobe_chance_ == 0.0f) {
-        const float cosine = glm::dot(shading_normal_, direction);
-        if (cosine <= 0.0f || glm::dot(geometric_normal_, direction) <= 0.0f) return std::nullopt;
-        return Sample{direction, brdf_.diffuse, cosine / kPiF};
-    }
-    const float density = pdf(direction);
-    const Rgb value = evaluate(direction);
-    if (value == Rgb(0.0f) || !(density > 0.0f)) return std::nullopt;
-    return Sample{direction, value / density, density};
+    const Value value = evaluate_with_pdf(direction);
+    if (value.f_cos == Rgb(0.0f) || !(value.pdf > 0.0f)) return std::nullopt;
+    return Sample{direction, value.f_cos / value.pdf, value.pdf};
 }
 
 float fresnel_dielectric(float cosine, float eta) {

@@ -17,10 +17,12 @@ class Reflection {
     /// A white Lambert surface of albedo pi: what it "reflects" is its irradiance.
     static Reflection irradiance(const Vec3& geometric_normal, const Vec3& shading_normal);
 
-    /// f times the cosine, 1/sr.
-    Rgb evaluate(const Vec3& light) const;
-    /// Density of sample(), per solid angle.
-    float pdf(const Vec3& light) const;
+    /// f times the cosine, 1/sr, and the density per solid angle with which sample() draws this direction.
+    struct Value {
+        Rgb f_cos = Rgb(0.0f);
+        float pdf = 0.0f;
+    };
+    Value evaluate_with_pdf(const Vec3& light) const;
 
     struct Sample {
         Vec3 direction;

@@ -142,8 +142,8 @@ void Integrator::trace(Path& path, Ray ray, std::optional<FoundSurface> found) c
 void Integrator::add_background(Path& path, const Vec3& direction) const {
     const bool eye = path.segments == 0 && path.seen;
     if (!lights_.sky.black()) {
-        const float weight = path.specular ? 1.0f : power_heuristic(path.pdf, lights_.sky.pdf(direction));
-        path.add(lights_.sky.radiance(direction) * weight, eye);
+        const EnvironmentSampler::Seen seen = lights_.sky.look(direction);
+        path.add(seen.radiance * (path.specular ? 1.0f : power_heuristic(path.pdf, seen.pdf)), eye);
     }
     for (const SunDisc& sun : lights_.suns) {
         if (!sun.contains(direction)) continue;
@@ -221,34 +221,48 @@ bool Integrator::scatter(Path& path, Ray& ray, const Vec3& position, const Vec3&
 void Integrator::add_straight_light(Path& path, const Vec3& position, const Vec3& geometric_normal,
                                     const Reflection& reflection) const {
     const bool direct = path.segments == 0 && path.seen;
+    const auto add = [&](const LightSample& sample) {
+        const Rgb response = weighted_response(reflection, sample);
+        if (response != Rgb(0.0f))
+            path.add(response * sample.radiance * visibility(path, position, geometric_normal, sample), direct);
+    };
     for (const SunDisc& sun : lights_.suns) {
         const float u = path.random.next(), v = path.random.next();
-        path.add(shadowed(path, position, geometric_normal, reflection, sun.sample(u, v)), direct);
+        add(sun.sample(u, v));
     }
     if (lights_.lamps.empty()) return;
-    if (const std::optional<LightSample> sample = lights_.lamps.sample(position, path.random))
-        path.add(shadowed(path, position, geometric_normal, reflection, *sample), direct);
+    if (const std::optional<LightSample> sample = lights_.lamps.sample(position, path.random)) add(*sample);
 }
 
 /// Sky and emissive surfaces, one shadow ray each.
 void Integrator::add_area_light(Path& path, const Vec3& position, const Vec3& geometric_normal,
                                 const Reflection& reflection) const {
-    if (lights_.sky.samplable())
-        path.add(shadowed(path, position, geometric_normal, reflection, lights_.sky.sample(path.random)), false);
-    if (!lights_.emitters.empty())
-        path.add(
-            shadowed(path, position, geometric_normal, reflection, lights_.emitters.sample(position, path.random)),
-            false);
+    if (lights_.sky.samplable()) {
+        const EnvironmentSampler::Draw draw = lights_.sky.sample(path.random);
+        const Rgb response = weighted_response(reflection, draw.light);
+        if (response != Rgb(0.0f)) {
+            const float through = visibility(path, position, geometric_normal, draw.light);
+            if (through > 0.0f) path.add(response * lights_.sky.radiance(draw.uv) * through, false);
+        }
+    }
+    if (!lights_.emitters.empty()) {
+        const LightSample sample = lights_.emitters.sample(position, path.random);
+        if (sample.radiance == Rgb(0.0f)) return;
+        const Rgb response = weighted_response(reflection, sample);
+        if (response != Rgb(0.0f))
+            path.add(response * sample.radiance * visibility(path, position, geometric_normal, sample), false);
+    }
 }
 
-Rgb Integrator::shadowed(Path& path, const Vec3& position, const Vec3& geometric_normal,
-                         const Reflection& reflection, const LightSample& sample) const {
-    if (sample.radiance == Rgb(0.0f)) return Rgb(0.0f);
-    Rgb light = sample.radiance * reflection.evaluate(sample.direction);
-    if (light == Rgb(0.0f)) return light;
-    if (sample.pdf > 0.0f)
-        light *= power_heuristic(sample.pdf, reflection.pdf(sample.direction)) / sample.pdf;
+/// What a sample's radiance (a lamp's irradiance) counts for, were nothing between.
+Rgb Integrator::weighted_response(const Reflection& reflection, const LightSample& sample) const {
+    const auto [value, pdf] = reflection.evaluate_with_pdf(sample.direction);
+    if (!(sample.pdf > 0.0f)) return value;
+    return value * (power_heuristic(sample.pdf, pdf) / sample.pdf);
+}
 
+float Integrator::visibility(Path& path, const Vec3& position, const Vec3& geometric_normal,
+                             const LightSample& sample) const {
     Ray ray{RayScene::offset_origin(position, geometric_normal, sample.direction), sample.direction};
     if (sample.distance < 1e30f) {
         // Both ends stand off their surfaces and the ray is aimed anew from one to the other: neither end shadows
@@ -258,11 +272,11 @@ Rgb Integrator::shadowed(Path& path, const Vec3& position, const Vec3& geometric
             sample.normal == Vec3(0.0f) ? end : RayScene::offset_origin(end, sample.normal, -sample.direction);
         const Vec3 way = target - ray.origin;
         ray.t_max = glm::length(way);
-        if (!(ray.t_max > 0.0f)) return light;
+        if (!(ray.t_max > 0.0f)) return 1.0f;
         ray.direction = way / ray.t_max;
     }
     ++path.rays;
-    return light * rays_.transmittance(ray);
+    return rays_.transmittance(ray);
 }
 
 bool Integrator::sun_in(const Vec3& direction) const {

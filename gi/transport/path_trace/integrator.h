@@ -44,8 +44,8 @@ class Integrator {
                             const Reflection& reflection) const;
     void add_area_light(Path& path, const Vec3& position, const Vec3& geometric_normal,
                         const Reflection& reflection) const;
-    Rgb shadowed(Path& path, const Vec3& position, const Vec3& geometric_normal, const Reflection& reflection,
-                 const LightSample& sample) const;
+    Rgb weighted_response(const Reflection& reflection, const LightSample& sample) const;
+    float visibility(Path& path, const Vec3& position, const Vec3& geometric_normal, const LightSample& sample) const;
     bool sun_in(const Vec3& direction) const;
     bool survives(Path& path) const;
 

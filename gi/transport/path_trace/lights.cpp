@@ -61,40 +61,55 @@ bool SunDisc::contains(const Vec3& direction) const {
     return glm::dot(chord, chord) <= 2.0f * float(kSunCapHeight);
 }
 
-EnvironmentSampler::EnvironmentSampler(const Environment& sky) : sky_(sky), black_(sky.black()) {
+EnvironmentSampler::EnvironmentSampler(const Environment& sky)
+    : map_(sky.map), black_(sky.map.empty() || sky.black()) {
     if (black_ || sky.constant()) return;
-    const auto w = std::size_t(sky.map.width), h = std::size_t(sky.map.height);
-    cell_solid_angle_.resize(h);
-    std::vector<double> weights = bilinear_texel_means(sky.map);
+    const auto w = std::size_t(map_.width), h = std::size_t(map_.height);
+    std::vector<double> weights = bilinear_texel_means(map_);
+    row_edge_cos_.push_back(1.0f);
     for (std::size_t y = 0; y < h; ++y) {
         const double top = std::cos(kPi * double(y) / double(h)), bottom = std::cos(kPi * double(y + 1) / double(h));
         const double solid_angle = 2.0 * kPi / double(w) * (top - bottom);
-        cell_solid_angle_[y] = float(solid_angle);
+        row_edge_cos_.push_back(float(bottom));
+        row_solid_angle_.push_back(float(solid_angle));
         for (std::size_t x = 0; x < w; ++x) weights[y * w + x] *= solid_angle;
     }
     table_ = AliasTable(weights);
 }
 
-LightSample EnvironmentSampler::sample(Random& random) const {
-    const int w = sky_.map.width, h = sky_.map.height;
-    const std::uint32_t cell = table_.sample(random.next_double());
-    const int x = int(cell) % w, y = int(cell) / w;
-    const double top = std::cos(kPi * double(y) / h), bottom = std::cos(kPi * double(y + 1) / h);
-    const double cos_polar = top + (bottom - top) * random.next_double();
-    const double u = (x + random.next_double()) / w;
-    LightSample sample;
-    sample.direction = direction_from_latlong(Vec2(u, std::acos(cos_polar) / kPi));
-    sample.radiance = sky_.radiance(sample.direction);
-    sample.pdf = table_.probability(cell) / cell_solid_angle_[std::size_t(y)];
-    return sample;
+EnvironmentSampler::Draw EnvironmentSampler::sample(Random& random) const {
+    const std::uint32_t cell = table_.sample(random.bits());
+    const std::uint32_t w = std::uint32_t(map_.width), x = cell % w, y = cell / w;
+    const float cos_polar = glm::mix(row_edge_cos_[y], row_edge_cos_[y + 1], random.next());
+    const float sin_polar = std::sqrt(std::max(1.0f - cos_polar * cos_polar, 0.0f));
+    const float u = (float(x) + random.next()) / float(w);
+    const float bearing = (u - 0.5f) * 2.0f * kPiF;
+    Draw draw;
+    draw.light.direction = Vec3(sin_polar * std::sin(bearing), cos_polar, -sin_polar * std::cos(bearing));
+    draw.light.pdf = table_.probability(cell) / row_solid_angle_[y];
+    draw.uv = Vec2(u, std::acos(cos_polar) / kPiF);
+    return draw;
 }
 
-float EnvironmentSampler::pdf(const Vec3& direction) const {
-    if (!samplable()) return 0.0f;
-    const int w = sky_.map.width, h = sky_.map.height;
-    const Vec2 uv = latlong_from_direction(direction);
-    const int x = std::clamp(int(uv.x * float(w)), 0, w - 1), y = std::clamp(int(uv.y * float(h)), 0, h - 1);
-    return table_.probability(std::uint32_t(y * w + x)) / cell_solid_angle_[std::size_t(y)];
+EnvironmentSampler::Seen EnvironmentSampler::look(const Vec3& direction) const {
+    if (map_.width == 1 && map_.height == 1) return {map_.pixels[0], 0.0f};
+    const Vec2 uv(0.5f + std::atan2(direction.x, -direction.z) / (2.0f * kPiF),
+                  std::acos(std::clamp(direction.y, -1.0f, 1.0f)) / kPiF);
+    if (!samplable()) return {radiance(uv), 0.0f};
+    const int x = std::clamp(int(uv.x * float(map_.width)), 0, map_.width - 1);
+    const int y = std::clamp(int(uv.y * float(map_.height)), 0, map_.height - 1);
+    return {radiance(uv), table_.probability(std::uint32_t(y * map_.width + x)) / row_solid_angle_[std::size_t(y)]};
+}
+
+Rgb EnvironmentSampler::radiance(const Vec2& uv) const {
+    const float x = uv.x * float(map_.width) - 0.5f, y = uv.y * float(map_.height) - 0.5f;
+    const float left = std::floor(x), top = std::floor(y);
+    int x0 = int(left), x1 = x0 + 1;
+    if (x0 < 0) x0 += map_.width;
+    if (x1 >= map_.width) x1 -= map_.width;
+    const int y0 = std::max(int(top), 0), y1 = std::min(int(top) + 1, map_.height - 1);
+    return glm::mix(glm::mix(map_.at(x0, y0), map_.at(x1, y0), x - left),
+                    glm::mix(map_.at(x0, y1), map_.at(x1, y1), x - left), y - top);
 }
 
 EmitterSampler::EmitterSampler(const RayScene& rays, const Materials& materials) : rays_(rays), materials_(materials) {
@@ -115,7 +130,7 @@ EmitterSampler::EmitterSampler(const RayScene& rays, const Materials& materials)
 }
 
 LightSample EmitterSampler::sample(const Vec3& from, Random& random) const {
-    const std::uint32_t triangle = triangles_[table_.sample(random.next_double())];
+    const std::uint32_t triangle = triangles_[table_.sample(random.bits())];
     const float u = random.next(), v = random.next();
     const Vec2 b = sample_triangle(u, v);
     const WorldMesh& mesh = rays_.mesh();

@@ -44,15 +44,28 @@ class EnvironmentSampler {
     explicit EnvironmentSampler(const Environment& sky);
     bool black() const { return black_; }
     bool samplable() const { return !table_.empty(); }
-    Rgb radiance(const Vec3& direction) const { return sky_.radiance(direction); }
-    LightSample sample(Random& random) const;
-    float pdf(const Vec3& direction) const;
+
+    /// As Environment::radiance, in single precision, together with the density of sample().
+    struct Seen {
+        Rgb radiance;
+        float pdf;
+    };
+    Seen look(const Vec3& direction) const;
+
+    /// Without its radiance, which costs more: to be asked for when the direction turns out to matter.
+    struct Draw {
+        LightSample light;
+        Vec2 uv;
+    };
+    Draw sample(Random& random) const;
+    Rgb radiance(const Vec2& uv) const;
 
   private:
-    const Environment& sky_;
+    const Image& map_;
     bool black_;
-    AliasTable table_;                 // over texels
-    std::vector<float> cell_solid_angle_;  // of a texel in each row
+    AliasTable table_;                  // over texels
+    std::vector<float> row_edge_cos_;   // cosine of the polar angle between the rows; one more than there are rows
+    std::vector<float> row_solid_angle_;  // of a texel in each row
 };
 
 /// Emissive triangles, drawn by approximate power, uniformly by area.

@@ -41,10 +41,6 @@ inline Vec3 sample_phong_lobe(float exponent, float u, float v) {
     const float log_cos = std::log(1.0f - u) / (exponent + 1.0f);
     return direction_around_z(std::exp(log_cos), std::sqrt(-std::expm1(2.0f * log_cos)), v);
 }
-inline float pdf_phong_lobe(float exponent, float cos_lobe) {
-    if (cos_lobe <= 0.0f) return 0.0f;
-    return (exponent + 1.0f) / (2.0f * kPiF) * std::pow(cos_lobe, exponent);
-}
 
 /// Uniform over a cap whose height is 1 - cos(radius): given as that difference, which a small cap's cosine loses.
 inline Vec3 sample_cap(float height, float u, float v) {
