@@ -7,8 +7,6 @@
 namespace daylit {
 namespace {
 
-// A Phong lobe of exponent n has a variance of 2 / n; at this exponent that is the variance of the sun's disc, r^2 / 2.
-constexpr float kMirrorExponent = float(4.0 / (kSunRadius * kSunRadius));
 constexpr float kMirrorReflectance = 0.25f;
 
 struct Gloss {
@@ -37,7 +35,7 @@ Gloss material_gloss(const Scene& scene, const Material& material) {
     const float reflectance = std::max({brdf.specular.x, brdf.specular.y, brdf.specular.z});
     Gloss gloss;
     if (reflectance >= kVisibleGloss) gloss.exponent = brdf.exponent;
-    gloss.mirror = reflectance >= kMirrorReflectance && brdf.exponent >= kMirrorExponent;
+    gloss.mirror = reflectance >= kMirrorReflectance && brdf.exponent >= glsl::kMaxPhongExponent;
     return gloss;
 }
 

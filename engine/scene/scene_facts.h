@@ -15,7 +15,7 @@ struct SceneFacts {
     float static_exponent = 0.0f;   // largest Phong exponent of a static surface whose lobe reflects kVisibleGloss or more
     std::string glossiest_material;  // the one that has it
     bool has_glass = false;          // transmission
-    bool has_mirror = false;         // a lobe as narrow as the sun's disc that reflects a quarter or more
+    bool has_mirror = false;         // a lobe of kMaxPhongExponent that reflects a quarter or more
     Bounds bounds;                   // of all triangles at rest; empty when there are none
 
     bool has_static() const { return static_triangles > 0; }

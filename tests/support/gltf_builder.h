@@ -19,7 +19,7 @@ class TemporaryFolder {
   public:
     TemporaryFolder();
     ~TemporaryFolder();
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+    std::filesystem::path operator/(const std::filesystem::path& name) const { return path_ / name; }
     const std::filesystem::path& path() const { return path_; }
 
   private:
