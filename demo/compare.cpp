@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "demo/commands.h"
+#include "demo/output.h"
 #include "engine/base/compare.h"
 #include "engine/base/error.h"
 #include "engine/base/exposure.h"
@@ -123,6 +124,7 @@ void compare(const CompareOptions& options) {
     if (kind_a == Kind::Points && !options.output.empty()) {
         throw UsageError("-o", "a difference image is made of two images, not of points");
     }
+    if (!options.output.empty()) check_output(options.output, {".png", ".exr"});
     const nlohmann::ordered_json measures =
         kind_a == Kind::Points ? compare_points(options) : compare_images(options, kind_a);
     if (options.json) {
@@ -139,7 +141,7 @@ void add_compare(CLI::App& app) {
     const auto options = std::make_shared<CompareOptions>();
     command->add_option("A", options->a, "picture (.exr linear, .png as displayed) or points with light (.csv)")->required();
     command->add_option("B", options->b, "the reference, of the same kind and size")->required();
-    command->add_option("-o,--output", options->output, "A, B and their FLIP difference beside each other, .png");
+    command->add_option("-o,--output", options->output, "A, B and their FLIP difference beside each other, .png or .exr");
     command->add_flag("--json", options->json, "the measures as JSON on stdout");
     command->footer(
         "rmse, mse, max_abs: over all channels of linear values (a .png decoded to linear light). nrmse and p95 are\n"
