@@ -1,6 +1,6 @@
 #pragma once
-// Points as CSV: x,y,z,nx,ny,nz in metres, then r,g,b in lux where a method has filled them in. A line of names may stand
-// first; lines that start with # are comments.
+// Points as CSV: x,y,z,nx,ny,nz in metres, then r,g,b in lux where a method has filled them in. A line of names may
+// stand first; lines that start with # are comments.
 #include <filesystem>
 #include <span>
 #include <vector>

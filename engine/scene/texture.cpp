@@ -16,11 +16,13 @@ const std::array<float, 256>& srgb_table() {
     return table;
 }
 
+/// i lies within a few periods of the image, as near_origin() sees to: steps are cheaper than a division.
 int wrapped(int i, int size, Wrap wrap) {
     if (wrap == Wrap::Clamp) return std::clamp(i, 0, size - 1);
     const int period = wrap == Wrap::Mirror ? 2 * size : size;
-    const int within = ((i % period) + period) % period;
-    return within < size ? within : period - 1 - within;
+    while (i < 0) i += period;
+    while (i >= period) i -= period;
+    return i < size ? i : period - 1 - i;
 }
 
 /// Coordinates far outside 0..1 are brought near it first, so that floor() of a float texel position stays exact and

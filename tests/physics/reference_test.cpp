@@ -146,7 +146,8 @@ TEST(Reference, FormFactorOfPerpendicularRectangles) {
         float h, w;
         double factor;
     };
-    for (const Case& c : {Case{1.0f, 1.0f, 0.200043776}, Case{0.1f, 0.1f, 0.281887807}, Case{0.1f, 1.0f, 0.043251369}}) {
+    const Case cases[] = {{1.0f, 1.0f, 0.200043776}, {0.1f, 0.1f, 0.281887807}, {0.1f, 1.0f, 0.043251369}};
+    for (const Case& c : cases) {
         TestScene test;
         test.quad(test.add(lambert(Rgb(0.0f), Rgb(1.0f))), {0, 0, 0}, {0, 0, 1}, {0, c.h, 0});
         const double factor = form_factor(test.trace(), {0, 0, 0}, {0, 0, 1}, {c.w, 0, 0});

@@ -13,21 +13,28 @@ class AliasTable {
     explicit AliasTable(std::span<const double> weights);
 
     bool empty() const { return slots_.empty(); }
+    struct Draw {
+        std::uint32_t index;
+        float probability;  // of this index
+    };
     /// bits   64 uniform random bits: the high half chooses a slot, the low half which of its two indices.
-    std::uint32_t sample(std::uint64_t bits) const {
+    Draw sample(std::uint64_t bits) const {
         const auto i = std::uint32_t(((bits >> 32) * slots_.size()) >> 32);
-        return std::uint32_t(bits) < slots_[i].keep ? i : slots_[i].other;
+        const Slot& slot = slots_[i];
+        if (std::uint32_t(bits) < slot.keep) return {i, slot.probability};
+        return {slot.other, slot.other_probability};
     }
     /// Chance of index i; 0 when empty.
-    float probability(std::uint32_t i) const { return empty() ? 0.0f : probabilities_[i]; }
+    float probability(std::uint32_t i) const { return empty() ? 0.0f : slots_[i].probability; }
 
   private:
+    /// All that a draw needs lies in one cache line.
     struct Slot {
         std::uint32_t keep = ~0u;  // chance of the slot's own index, in units of 2^-32
         std::uint32_t other = 0;
+        float probability = 0.0f, other_probability = 0.0f;
     };
     std::vector<Slot> slots_;
-    std::vector<float> probabilities_;
 };
 
 }  // namespace daylit

@@ -78,7 +78,7 @@ EnvironmentSampler::EnvironmentSampler(const Environment& sky)
 }
 
 EnvironmentSampler::Draw EnvironmentSampler::sample(Random& random) const {
-    const std::uint32_t cell = table_.sample(random.bits());
+    const auto [cell, chance] = table_.sample(random.bits());
     const std::uint32_t w = std::uint32_t(map_.width), x = cell % w, y = cell / w;
     const float cos_polar = glm::mix(row_edge_cos_[y], row_edge_cos_[y + 1], random.next());
     const float sin_polar = std::sqrt(std::max(1.0f - cos_polar * cos_polar, 0.0f));
@@ -86,7 +86,7 @@ EnvironmentSampler::Draw EnvironmentSampler::sample(Random& random) const {
     const float bearing = (u - 0.5f) * 2.0f * kPiF;
     Draw draw;
     draw.light.direction = Vec3(sin_polar * std::sin(bearing), cos_polar, -sin_polar * std::cos(bearing));
-    draw.light.pdf = table_.probability(cell) / row_solid_angle_[y];
+    draw.light.pdf = chance / row_solid_angle_[y];
     draw.uv = Vec2(u, std::acos(cos_polar) / kPiF);
     return draw;
 }
@@ -130,7 +130,7 @@ EmitterSampler::EmitterSampler(const RayScene& rays, const Materials& materials)
 }
 
 LightSample EmitterSampler::sample(const Vec3& from, Random& random) const {
-    const std::uint32_t triangle = triangles_[table_.sample(random.bits())];
+    const std::uint32_t triangle = triangles_[table_.sample(random.bits()).index];
     const float u = random.next(), v = random.next();
     const Vec2 b = sample_triangle(u, v);
     const WorldMesh& mesh = rays_.mesh();
