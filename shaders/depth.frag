@@ -1,5 +1,6 @@
 #version 450 core
-// Cuts MASK casters; veils BLEND ones: rgb is the share let through, multiplied up by blending, a the nearest depth.
+// Depth of casters. MASK ones are cut. VEIL: the next BLEND caster behind the layers that are already known (depth
+// peeling, Everitt 2001): its depth and the share of light that it lets through.
 #if defined(MASK) || defined(VEIL)
 #include "shaders/material.glsl"
 #endif
@@ -10,8 +11,9 @@ layout(location = 3) in vec4 v_uvs;
 layout(location = 4) in vec4 v_color;
 #endif
 #ifdef VEIL
-layout(location = 1) uniform float depth_scale;  // metres
-layout(location = 0) out vec4 out_veil;
+layout(binding = 7) uniform sampler2DArray known_veils;
+layout(location = 1) uniform int known_layer;  // the nearest layer known so far; -1: none
+layout(location = 0) out vec2 out_veil;
 #endif
 
 void main() {
@@ -28,7 +30,9 @@ void main() {
 #endif
     float alpha = material_base_color(uvs, vertex_color).a;
 #ifdef VEIL
-    out_veil = vec4(vec3(1.0 - alpha), gl_FragCoord.z * depth_scale);
+    if (known_layer >= 0 &&
+        gl_FragCoord.z <= texelFetch(known_veils, ivec3(gl_FragCoord.xy, known_layer), 0).r + 1.0e-6) discard;
+    out_veil = vec2(gl_FragCoord.z, 1.0 - alpha);
 #else
     if (alpha < material.emission.w) discard;
 #endif

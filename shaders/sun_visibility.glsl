@@ -10,7 +10,9 @@
 layout(binding = 5) uniform sampler2DArray sun_depth;  // nearest, share of the depth range
 layout(binding = 6) uniform sampler2DArray sun_range;  // mip k: least, greatest over a block of 4 * 2^k and its neighbours
 #ifdef BLEND_CASTERS
-layout(binding = 7) uniform sampler2DArray sun_veil;   // rgb: what BLEND casters let through; a: depth of the first
+// BLEND casters in the order of their depth: depth and share let through; kVeils layers for each layer of sun_depth.
+layout(binding = 7) uniform sampler2DArray sun_veils;
+const int kVeils = BLEND_CASTERS;
 #endif
 
 struct SunReceiver {
@@ -75,9 +77,9 @@ float lit_penumbra(SunReceiver r, float reach, float slack) {
 }
 
 // position: world; normal: of the face, turned to the side that is seen. Zero when that side turns away from the sun.
-vec3 sun_visibility(int sun, vec3 position, vec3 normal) {
+float sun_visibility(int sun, vec3 position, vec3 normal) {
     float facing = dot(normal, frame.suns[sun].direction.xyz);
-    if (facing <= 0.0) return vec3(0.0);
+    if (facing <= 0.0) return 0.0;
     vec2 across = vec2(dot(frame.suns[sun].axis_x.xyz, position), dot(frame.suns[sun].axis_y.xyz, position));
     int cascades = int(frame.suns[sun].radiance.w);
     int layer = -1;
@@ -86,7 +88,7 @@ vec3 sun_visibility(int sun, vec3 position, vec3 normal) {
         vec2 away = abs(across - cascade.xy);
         if (max(away.x, away.y) < cascade.w) layer = c;
     }
-    if (layer < 0) return vec3(1.0);
+    if (layer < 0) return 1.0;
     vec4 cascade = frame.cascades[sun * kMaxCascades + layer];
 
     SunReceiver r;
@@ -123,8 +125,14 @@ vec3 sun_visibility(int sun, vec3 position, vec3 normal) {
     }
     if (lit < 0.0) lit = reach > 0.75 ? lit_penumbra(r, reach, slack) : lit_bilinear(r, vec2(0.0), slack);
 #ifdef BLEND_CASTERS
-    vec4 veil = texture(sun_veil, vec3(r.texel / frame.counts.z, float(r.layer)));
-    if (veil.a < r.depth - slack - 0.01) return lit * veil.rgb;
+    // A pane must not dim itself: it counts from a little behind its own plane, as steep as that is.
+    float behind = r.depth - slack - 2.0 * r.size * steepness - 1.0e-3;
+    ivec2 at = ivec2(r.texel * (vec2(textureSize(sun_veils, 0).xy) / frame.counts.z));
+    for (int i = 0; i < kVeils && lit > 0.0; ++i) {
+        vec2 veil = texelFetch(sun_veils, ivec3(at, r.layer * kVeils + i), 0).rg;
+        if (veil.r * r.scale >= behind) break;
+        lit *= veil.g;
+    }
 #endif
-    return vec3(lit);
+    return lit;
 }

@@ -54,7 +54,7 @@ Light direct_light(Brdf brdf, vec3 normal, vec3 face_normal, vec3 view) {
     for (int i = 0; i < SUNS; ++i) {
         vec3 to_sun = frame.suns[i].direction.xyz;
         if (dot(normal, to_sun) <= 0.0) continue;
-        vec3 seen = sun_visibility(i, v_position, face_normal);
+        float seen = sun_visibility(i, v_position, face_normal);
         add_light(light, under_disc, frame.suns[i].irradiance.rgb * seen, to_sun, normal, mirrored);
     }
 #endif

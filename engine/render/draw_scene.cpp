@@ -95,7 +95,7 @@ DrawCount DrawScene::draw_depth(const Mat4& clip_from_world, const Frustum& frus
     return draw_coverage(clip_from_world, frustum, false);
 }
 
-DrawCount DrawScene::draw_veils(const Mat4& clip_from_world, const Frustum& frustum, float depth_scale) {
+DrawCount DrawScene::draw_veils(const Mat4& clip_from_world, const Frustum& frustum, int known_layer) {
     DrawCount count;
     for (const std::optional<Geometry>& part : parts) {
         if (!part) continue;
@@ -111,7 +111,7 @@ DrawCount DrawScene::draw_veils(const Mat4& clip_from_world, const Frustum& frus
             const Program& program = programs.get("depth.vert", "depth.frag", defines);
             program.use();
             program.set("clip_from_world", clip_from_world);
-            program.set("depth_scale", depth_scale);
+            program.set("known_layer", known_layer);
             materials->bind_coverage(batch.material);
             Geometry::draw(list);
         }

@@ -45,8 +45,8 @@ struct DrawScene {
 
     /// Depth of everything that blocks light (OPAQUE, MASK and glass), both sides of every face.
     DrawCount draw_casters(const Mat4& clip_from_world, const Frustum& frustum);
-    /// What BLEND casters let through, into a colour target; depth_scale is what a depth of 1 means.
-    DrawCount draw_veils(const Mat4& clip_from_world, const Frustum& frustum, float depth_scale);
+    /// The first BLEND casters behind a known layer of veils (bound to unit 7; -1: none): depth and share let through.
+    DrawCount draw_veils(const Mat4& clip_from_world, const Frustum& frustum, int known_layer);
     /// Depth of what the camera sees, faces that turn away culled unless double-sided.
     DrawCount draw_depth(const Mat4& clip_from_world, const Frustum& frustum);
     /// Shaded OPAQUE and MASK surfaces as the camera sees them; `frame_defines` on top of the material's own.

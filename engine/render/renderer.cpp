@@ -265,7 +265,7 @@ std::vector<std::string> Renderer::State::frame_defines(Layer show, bool standin
         if (!lighting.suns.empty()) {
             defines.push_back("SUNS " + std::to_string(lighting.suns.size()));
             defines.push_back("SHADOW_TAPS 16");
-            if (draw.any_veils) defines.push_back("BLEND_CASTERS");
+            if (draw.any_veils) defines.push_back("BLEND_CASTERS " + std::to_string(kVeils));
         }
         if (lamp_shadow.lamp_count() > 0) defines.push_back("LAMPS");
     }

@@ -11,6 +11,9 @@ namespace {
 constexpr int kSnapTexels = 64;  // cascades move by this many texels
 constexpr float kWidening = 3.0f;
 
+/// Panes are large and their edges mostly framed: a coarser map serves.
+int veil_texels(int texels) { return std::min(texels / 2, 1024); }
+
 int range_levels(int texels) { return mip_levels(texels / 4, texels / 4) - 2; }
 
 }  // namespace
@@ -106,7 +109,11 @@ void SunShadow::make_textures(const DrawScene& scene) {
     plain_range_ = make_texture_array(GL_RG32F, texels_ / 4, texels_ / 4, texture_layers_, levels, mips);
     range_ = make_texture_array(GL_RG32F, texels_ / 4, texels_ / 4, texture_layers_, levels, mips);
     veiled_ = scene.any_veils;
-    if (veiled_) veil_ = make_texture_array(GL_RGBA32F, texels_ / 2, texels_ / 2, texture_layers_);
+    if (veiled_) {
+        veils_ = make_texture_array(GL_RG32F, veil_texels(texels_), veil_texels(texels_), texture_layers_ * kVeils, 1, nearest);
+        veil_depth_ = make_texture_2d(GL_DEPTH_COMPONENT32F, veil_texels(texels_), veil_texels(texels_));
+        veils_found_ = make_query(GL_ANY_SAMPLES_PASSED);
+    }
     framebuffer_ = make_framebuffer();
 }
 
@@ -138,6 +145,28 @@ void SunShadow::draw_range(DrawScene& scene, int layer) {
     glEnable(GL_DEPTH_TEST);
 }
 
+DrawCount SunShadow::draw_veils(DrawScene& scene, const Mat4& matrix, int layer) {
+    DrawCount count;
+    const GLuint fbo = framebuffer_.get();
+    const float far = 1.0f, nothing[4] = {2.0f, 1.0f, 0.0f, 0.0f};  // beyond every receiver, letting all through
+    glNamedFramebufferTexture(fbo, GL_DEPTH_ATTACHMENT, veil_depth_.get(), 0);
+    glNamedFramebufferDrawBuffer(fbo, GL_COLOR_ATTACHMENT0);
+    glViewport(0, 0, veil_texels(texels_), veil_texels(texels_));
+    bind_texture(7, veils_.get());
+    GLuint found = GL_TRUE;
+    for (int i = 0; i < kVeils; ++i) {
+        glNamedFramebufferTextureLayer(fbo, GL_COLOR_ATTACHMENT0, veils_.get(), 0, layer * kVeils + i);
+        glClearNamedFramebufferfv(fbo, GL_COLOR, 0, nothing);
+        if (!found) continue;
+        glClearNamedFramebufferfv(fbo, GL_DEPTH, 0, &far);
+        glBeginQuery(GL_ANY_SAMPLES_PASSED, veils_found_.get());
+        count.add(scene.draw_veils(matrix, frustum(matrix, false), i == 0 ? -1 : layer * kVeils + i - 1));
+        glEndQuery(GL_ANY_SAMPLES_PASSED);
+        glGetQueryObjectuiv(veils_found_.get(), GL_QUERY_RESULT, &found);
+    }
+    return count;
+}
+
 DrawCount SunShadow::draw(DrawScene& scene) {
     DrawCount count;
     maps_drawn_ = 0;
@@ -160,19 +189,7 @@ DrawCount SunShadow::draw(DrawScene& scene) {
             glClearNamedFramebufferfv(fbo, GL_DEPTH, 0, &far);
             count.add(scene.draw_casters(matrix, seen));
             draw_range(scene, layer);
-            if (!veiled_) continue;
-            glNamedFramebufferTextureLayer(fbo, GL_COLOR_ATTACHMENT0, veil_.get(), 0, layer);
-            glViewport(0, 0, texels_ / 2, texels_ / 2);
-            const float clear[4] = {1.0f, 1.0f, 1.0f, 1.0e30f};
-            glClearNamedFramebufferfv(fbo, GL_COLOR, 0, clear);
-            glDisable(GL_DEPTH_TEST);
-            glEnable(GL_BLEND);
-            glBlendEquationSeparate(GL_FUNC_ADD, GL_MIN);
-            glBlendFunc(GL_ZERO, GL_SRC_COLOR);
-            count.add(scene.draw_veils(matrix, seen, fits_[s].depth_range));
-            glBlendEquation(GL_FUNC_ADD);
-            glDisable(GL_BLEND);
-            glEnable(GL_DEPTH_TEST);
+            if (veiled_) count.add(draw_veils(scene, matrix, layer));
         }
     glDepthFunc(GL_GREATER);
     drawn_ = fits_;
@@ -190,7 +207,7 @@ void SunShadow::use(glsl::FrameBlock& frame) const {
     if (fits_.empty()) return;
     bind_texture(5, depth_.get());
     bind_texture(6, range_.get());
-    if (veiled_) bind_texture(7, veil_.get());
+    if (veiled_) bind_texture(7, veils_.get());
 }
 
 }  // namespace daylit

@@ -25,6 +25,9 @@ SunFit fit_sun(const Sun& sun, const Bounds& scene, const Vec3& eye, int texels,
 /// clip_from_world of one cascade: depth 0 at the highest caster, 1 at the lowest.
 Mat4 cascade_matrix(const SunFit& fit, std::size_t cascade, int texels);
 
+/// BLEND casters that one ray of light may pass: two panes of two faces and one more surface.
+inline constexpr int kVeils = 5;
+
 class SunShadow {
   public:
     /// Plans the maps for this frame; true when some of them must be drawn again.
@@ -40,6 +43,7 @@ class SunShadow {
   private:
     void make_textures(const DrawScene& scene);
     void draw_range(DrawScene& scene, int layer);
+    DrawCount draw_veils(DrawScene& scene, const Mat4& matrix, int layer);
     int layers() const;
 
     std::vector<SunFit> fits_, drawn_;
@@ -48,7 +52,8 @@ class SunShadow {
     int texels_ = 0, maps_drawn_ = 0;
     int texture_layers_ = 0, texture_texels_ = 0;
     bool veiled_ = false;
-    GlTexture depth_, plain_range_, range_, veil_;
+    GlTexture depth_, plain_range_, range_, veils_, veil_depth_;
+    GlQuery veils_found_;
     GlFramebuffer framebuffer_;
 };
 

@@ -1,0 +1,301 @@
+// Pictures whose pixels can be worked out on paper.
+#include "engine/render/renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/packing.hpp>
+
+#include "engine/base/error.h"
+#include "engine/base/exposure.h"
+#include "small_scenes.h"
+
+namespace daylit {
+namespace {
+
+using namespace render_tests;
+
+/// A context that turns every GL error of the test into a failure.
+class RendererTest : public testing::Test {
+  protected:
+    void TearDown() override { EXPECT_NO_THROW(check_gl()); }
+    std::unique_ptr<GlContext> context_ = make_any_context({.debug = true});
+};
+
+float relative(float value, double expected) { return float(std::abs(value / expected - 1.0)); }
+
+TEST_F(RendererTest, plane_under_the_sun_is_albedo_e_cos_over_pi_gl) {
+    const Scene scene = scene_of({ground(Vec3(0), 5, 5, 0)}, {lambert({0.5f, 0.25f, 0.75f})});
+    Renderer renderer(scene, nullptr);
+    for (const float elevation : {90.0f, 60.0f, 30.0f, 12.0f}) {
+        const float e = elevation * float(kDegree);
+        renderer.set_lighting(one_sun({std::cos(e), std::sin(e), 0.3f * std::cos(e)}, 100000.0f));
+        const float sine = std::sin(e) / std::sqrt(1.0f + 0.09f * std::cos(e) * std::cos(e));
+        renderer.draw(frame_of(from_above(1.0f), 16, 16));
+        const Image image = renderer.read_radiance();
+        for (const Rgb& pixel : image.pixels) {
+            EXPECT_LT(relative(pixel.r, 0.5 * 100000.0 * sine / kPi), 0.005) << elevation;
+            EXPECT_LT(relative(pixel.b, 0.75 * 100000.0 * sine / kPi), 0.005) << elevation;
+        }
+    }
+}
+
+TEST_F(RendererTest, plane_under_a_lamp_is_intensity_over_distance_squared_gl) {
+    Scene scene = scene_of({ground(Vec3(0), 5, 5, 0)}, {lambert(Rgb(0.5f))});
+    Node node;
+    node.translation = {0, 2, 0};
+    node.light = 0;
+    scene.order.push_back(int(scene.nodes.size()));
+    scene.nodes.push_back(node);
+    PunctualLight lamp;
+    lamp.node = int(scene.nodes.size()) - 1;
+    lamp.intensity = Rgb(300.0f);
+    scene.lights.push_back(lamp);
+    Renderer renderer(scene, nullptr);
+    renderer.set_lighting({{}, {Image(1, 1)}});
+    renderer.draw(frame_of(from_above(6.0f, Vec3(0), 3.0f), 61, 61));
+    const Image image = renderer.read_radiance();
+    for (const int x : {30, 40, 50, 58}) {
+        const double away = (x + 0.5 - 30.5) * 6.0 / 61.0, d2 = 4.0 + away * away;
+        EXPECT_LT(relative(image.at(x, 30).g, 0.5 / kPi * 300.0 / d2 * (2.0 / std::sqrt(d2))), 0.005) << x;
+    }
+}
+
+/// Uncovered share of a unit disc of which everything beyond the chord at `x` (in radii from its centre) is hidden.
+double disc_share(double x) {
+    x = std::clamp(x, -1.0, 1.0);
+    return 1.0 - (std::acos(x) - x * std::sqrt(1.0 - x * x)) / kPi;
+}
+
+TEST_F(RendererTest, penumbra_of_an_edge_is_that_of_the_disc_gl) {
+    // A roof over x < 0, three metres up; the sun stands overhead.
+    const Scene scene = scene_of({ground(Vec3(0), 5, 5, 0), ground(Vec3(-2.5f, 3, 0), 2.5f, 5, 0)}, {lambert(Rgb(0.8f))});
+    Renderer renderer(scene, nullptr);
+    renderer.set_lighting(one_sun({0, 1, 0}, 100000.0f));
+    FrameSettings frame = frame_of(from_above(0.08f), 64, 64);
+    frame.samples_per_side = 2;
+    renderer.draw(frame);
+    const Image image = renderer.read_radiance();
+    const double radius = 3.0 * std::tan(kSunRadius);
+    double error = 0.0, most = 0.0, width = 0.0;
+    for (int x = 0; x < 64; ++x) {
+        double lit = 0.0;
+        for (int y = 0; y < 64; ++y) lit += image.at(x, y).g / (0.8 * 100000.0 / kPi) / 64.0;
+        const double expected = disc_share(((x + 0.5) / 64.0 - 0.5) * 0.08 / radius);
+        error += std::abs(lit - expected) / 64.0;
+        most = std::max(most, std::abs(lit - expected));
+        width += lit * (1.0 - lit) * 0.08 / 64.0;
+    }
+    EXPECT_LT(error, 0.03);
+    EXPECT_LT(most, 0.12);
+    double expected_width = 0.0;  // the same measure of the closed form
+    for (int i = 0; i < 4096; ++i) {
+        const double share = disc_share(((i + 0.5) / 4096.0 - 0.5) * 0.08 / radius);
+        expected_width += share * (1.0 - share) * 0.08 / 4096.0;
+    }
+    EXPECT_NEAR(width / expected_width, 1.0, 0.15);
+}
+
+TEST_F(RendererTest, shadow_of_a_wall_ends_where_the_sun_says_gl) {
+    // A wall of no thickness, 1 m high along z at x = 0; the sun 45 degrees up over -x: shadow from 0 to 1 m.
+    Primitive wall = quad({0, 0, 2}, {0, 0, -2}, {0, 1, -2}, {0, 1, 2}, 0);
+    const Scene scene = scene_of({ground(Vec3(0), 5, 5, 0), wall}, {lambert(Rgb(0.8f))});
+    Renderer renderer(scene, nullptr);
+    renderer.set_lighting(one_sun({-1, 1, 0}, 100000.0f));
+    renderer.draw(frame_of(from_above(3.0f), 300, 300));
+    const Image image = renderer.read_radiance();
+    const double full = 0.8 * 100000.0 * std::sqrt(0.5) / kPi;
+    double shaded = 0.0;
+    for (int x = 0; x < 300; ++x) {
+        const double at = (x + 0.5) / 100.0 - 1.5, lit = image.at(x, 150).g / full;
+        if (at < -0.01) EXPECT_NEAR(lit, 1.0, 0.005) << at;           // no acne, no dark line before the wall
+        if (at > 0.02 && at < 0.97) EXPECT_NEAR(lit, 0.0, 0.005) << at;  // no light behind its foot
+        if (at > 1.03) EXPECT_NEAR(lit, 1.0, 0.005) << at;
+        shaded += (1.0 - lit) / 100.0;
+    }
+    EXPECT_NEAR(shaded, 1.0, 0.01);
+}
+
+/// An image whose left half has alpha 0 and whose right half has alpha 255.
+Image8 half_alpha() {
+    Image8 image{2, 1, {255, 255, 255, 0, 255, 255, 255, 255}};
+    return image;
+}
+
+TEST_F(RendererTest, masks_cut_the_surface_and_its_shadow_gl) {
+    Material leaf = lambert(Rgb(0.5f));
+    leaf.alpha_mode = AlphaMode::Mask;
+    leaf.base_color_texture.texture = 0;
+    Scene scene = scene_of({ground(Vec3(0), 5, 5, 0), ground(Vec3(0, 1, 0), 1, 1, 1)}, {lambert(Rgb(0.8f)), leaf});
+    scene.images = {half_alpha()};
+    scene.image_names = {"half"};
+    scene.textures = {{0, Wrap::Clamp, Wrap::Clamp, Filter::Nearest}};
+    Renderer renderer(scene, nullptr);
+    renderer.set_lighting(one_sun({0, 1, 0}, 1000.0f));
+    renderer.draw(frame_of(from_above(4.0f), 64, 64));
+    const Image image = renderer.read_radiance();
+    EXPECT_NEAR(image.at(24, 32).g, 800.0 / kPi, 2.0);  // through the hole: lit ground
+    EXPECT_NEAR(image.at(40, 32).g, 500.0 / kPi, 2.0);  // the leaf
+    View below = from_above(4.0f, Vec3(0), 0.5f);       // between leaf and ground
+    renderer.draw(frame_of(below, 64, 64));
+    const Image ground_only = renderer.read_radiance();
+    EXPECT_NEAR(ground_only.at(24, 32).g, 800.0 / kPi, 2.0);
+    EXPECT_EQ(ground_only.at(40, 32).g, 0.0f);
+}
+
+TEST_F(RendererTest, blend_covers_and_dims_by_alpha_gl) {
+    Material veil = lambert(Rgb(1.0f));
+    veil.base_color.a = 0.25f;
+    veil.alpha_mode = AlphaMode::Blend;
+    Material lower = veil;
+    lower.base_color.a = 0.5f;
+    const Scene scene = scene_of({ground(Vec3(0), 5, 5, 0), ground(Vec3(0, 0.5f, 0), 1, 1, 2), ground(Vec3(0, 1, 0), 1, 1, 1)},
+                                 {lambert(Rgb(0.5f)), veil, lower});
+    Renderer renderer(scene, nullptr);
+    renderer.set_lighting(one_sun({0, 1, 0}, 1000.0f));
+    renderer.draw(frame_of(from_above(4.0f), 64, 64));
+    const Image image = renderer.read_radiance();
+    const double ground_light = 0.5 * 1000.0 * 0.75 * 0.5 / kPi, lower_light = 1000.0 * 0.75 / kPi, upper_light = 1000.0 / kPi;
+    const double behind_upper = 0.5 * lower_light + 0.5 * ground_light;
+    EXPECT_LT(relative(image.at(32, 32).g, 0.25 * upper_light + 0.75 * behind_upper), 0.005);
+    EXPECT_LT(relative(image.at(4, 4).g, 500.0 / kPi), 0.005);
+}
+
+TEST_F(RendererTest, culling_does_not_change_the_picture_gl) {
+    std::vector<Primitive> quads = {ground(Vec3(0), 50, 50, 0)};
+    for (int i = 0; i < 100; ++i)
+        quads.push_back(ground({float(i % 10) * 4.0f - 20.0f, 0.5f + float(i % 7) * 0.2f, float(i / 10) * 4.0f - 20.0f}, 0.5f,
+                               0.7f, i % 2));
+    const Scene scene = scene_of(quads, {lambert(Rgb(0.8f)), lambert(Rgb(0.3f))});
+    Renderer culled(scene, nullptr), whole(scene, nullptr);
+    FrameSettings frame = frame_of(look_at({0, 1.7f, 0}, {5, 1, 5}, 1.0f), 160, 90);
+    culled.set_lighting(one_sun({1, 2, 0.5f}, 1000.0f));
+    whole.set_lighting(one_sun({1, 2, 0.5f}, 1000.0f));
+    culled.draw(frame);
+    frame.cull = false;
+    whole.draw(frame);
+    const Image a = culled.read_radiance(), b = whole.read_radiance();
+    EXPECT_EQ(a.pixels, b.pixels);
+}
+
+TEST_F(RendererTest, a_still_sun_costs_nothing_gl) {
+    Scene scene = scene_of({ground(Vec3(0), 50, 50, 0), ground(Vec3(0, 1, 0), 1, 1, 0)}, {lambert(Rgb(0.8f))});
+    scene.nodes[1].dynamic = true;
+    Renderer renderer(scene, nullptr);
+    const auto shadows_ran = [&](const View& view) {
+        return pass(renderer.draw(frame_of(view, 32, 32)), "sun shadows").ran;
+    };
+    renderer.set_lighting(one_sun({1, 2, 0.5f}, 1000.0f));
+    EXPECT_TRUE(shadows_ran(look_at({0, 1.7f, 0}, {5, 1, 5}, 1.0f)));
+    EXPECT_FALSE(shadows_ran(look_at({0, 1.7f, 0}, {5, 1, 5}, 1.0f)));
+    EXPECT_FALSE(shadows_ran(look_at({0, 1.7f, 0}, {-5, 1, 2}, 1.0f)));  // turning the head
+    renderer.set_lighting(one_sun({1, 2, 0.5f}, 1000.0f));
+    renderer.set_pose(pose_scene(scene));
+    EXPECT_FALSE(shadows_ran(look_at({0, 1.7f, 0}, {5, 1, 5}, 1.0f)));
+    renderer.set_lighting(one_sun({1, 2.1f, 0.5f}, 1000.0f));
+    EXPECT_TRUE(shadows_ran(look_at({0, 1.7f, 0}, {5, 1, 5}, 1.0f)));
+    const NodeMove move{1, Vec3(1, 1, 0), 0.0f};
+    renderer.set_pose(pose_scene(scene, 0.0, std::span(&move, 1)));
+    EXPECT_TRUE(shadows_ran(look_at({0, 1.7f, 0}, {5, 1, 5}, 1.0f)));
+    EXPECT_FALSE(shadows_ran(look_at({0, 1.7f, 0}, {5, 1, 5}, 1.0f)));
+}
+
+TEST_F(RendererTest, a_moved_node_is_drawn_where_it_is_gl) {
+    Scene scene = scene_of({ground(Vec3(0), 0.5f, 0.5f, 0)}, {lambert(Rgb(0.8f))});
+    scene.nodes[0].dynamic = true;
+    Renderer renderer(scene, nullptr);
+    const NodeMove move{0, Vec3(1, 0, 0), 0.0f};
+    renderer.set_pose(pose_scene(scene, 0.0, std::span(&move, 1)));
+    renderer.draw(frame_of(from_above(4.0f), 64, 64, Layer::Albedo));
+    const Image image = renderer.read_radiance();
+    EXPECT_NEAR(image.at(48, 32).g, 0.8f, 1e-5f);
+    EXPECT_EQ(image.at(32 - 4, 32).g, 0.0f);
+}
+
+TEST_F(RendererTest, a_constant_lightmap_is_shown_exactly_gl) {
+    const Scene scene = scene_of({ground(Vec3(0), 5, 5, 0)}, {lambert(Rgb(0.5f))});
+    Baked baked;
+    baked.lightmap.emplace();
+    DayLightmap& map = *baked.lightmap;
+    map.width = map.height = 4;
+    map.basis = {{6.0, 18.0}, 2, {1, 0, 0, 1}};  // the first component at 6, the second at 18
+    for (const float lux : {512.0f, 2048.0f})
+        map.components.insert(map.components.end(), 4 * 4 * 3, glm::packHalf1x16(lux));
+    map.corner_uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
+    Renderer renderer(scene, &baked);
+    renderer.set_lighting({{}, {Image(1, 1)}});
+    FrameSettings frame = frame_of(from_above(1.0f), 8, 8, Layer::Indirect);
+    frame.hour = 12.0;
+    EXPECT_TRUE(pass(renderer.draw(frame), "relight").ran);
+    EXPECT_LT(relative(renderer.read_radiance().at(3, 3).g, 0.5 * 1280.0 / kPi), 1e-5);
+    EXPECT_FALSE(pass(renderer.draw(frame), "relight").ran);
+    frame.hour = 18.0;
+    frame.show = Layer::Lightmap;
+    EXPECT_TRUE(pass(renderer.draw(frame), "relight").ran);
+    EXPECT_LT(relative(renderer.read_radiance().at(3, 3).g, 2048.0), 1e-5);
+}
+
+TEST_F(RendererTest, sky_is_the_environment_and_the_sun_is_its_disc_gl) {
+    const Scene scene = scene_of({ground(Vec3(0), 1, 1, 0)}, {lambert(Rgb(0.5f))});
+    Renderer renderer(scene, nullptr);
+    Lighting lighting = one_sun({0, 0.5f, -1}, 100000.0f);
+    lighting.sky.map = Image(64, 32);
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 64; ++x) lighting.sky.map.at(x, y) = Rgb(float(x + 1), float(y + 1), 5.0f);
+    renderer.set_lighting(lighting);
+    const View view = look_at({0, 10, 0}, Vec3(0, 10, 0) + lighting.suns[0].direction, 0.02f);
+    FrameSettings frame = frame_of(view, 101, 101);
+    renderer.draw(frame);
+    const Image image = renderer.read_radiance();
+    EXPECT_LT(relative(image.at(50, 50).g, disc_radiance(lighting.suns[0]).g), 0.001);
+    const ViewRay corner = view_ray(view, 0.5f, 0.5f, 101, 101);
+    EXPECT_LT(relative(image.at(0, 0).g, lighting.sky.radiance(corner.direction).g), 0.001);
+    EXPECT_LT(relative(image.at(0, 0).r, lighting.sky.radiance(corner.direction).r), 0.001);
+    // All of the disc's light: E = sum of L * solid angle of a pixel.
+    double lux = 0.0;
+    const double pixel = std::pow(2.0 * std::tan(0.01) / 101.0, 2.0);
+    for (const Rgb& p : image.pixels) lux += p.g > 1000.0f ? p.g * pixel : 0.0;
+    EXPECT_NEAR(lux / 100000.0, 1.0, 0.02);
+}
+
+TEST_F(RendererTest, metering_on_the_gpu_agrees_with_auto_ev_gl) {
+    const Scene scene = scene_of({ground(Vec3(0), 50, 50, 0), ground(Vec3(0, 2, -6), 5, 5, 1)},
+                                 {lambert(Rgb(0.8f)), lambert(Rgb(0.1f))});
+    Renderer renderer(scene, nullptr);
+    Lighting lighting = one_sun({1, 1, -0.5f}, 80000.0f);
+    lighting.sky.map = Image(1, 1, Rgb(4000.0f));
+    renderer.set_lighting(lighting);
+    FrameSettings frame = frame_of(look_at({0, 1.7f, 5}, {0, 1.5f, 0}, 1.0f), 640, 360);
+    frame.ev.reset();
+    const FrameReport report = renderer.draw(frame);
+    EXPECT_NEAR(report.ev, auto_ev(renderer.read_radiance()), 0.1);
+    const Image shown = renderer.read_display(), expected = tonemap(renderer.read_radiance(), report.ev);
+    for (std::size_t i = 0; i < shown.pixels.size(); ++i)
+        EXPECT_LT(glm::length(shown.pixels[i] - expected.pixels[i]), 1e-4f);
+}
+
+TEST(RendererContexts, egl_and_osmesa_show_the_same_gl) {
+    const Scene scene = scene_of({ground(Vec3(0), 50, 50, 0), ground(Vec3(0, 2, -6), 5, 5, 1)},
+                                 {lambert(Rgb(0.8f)), lambert(Rgb(0.1f))});
+    const auto shown = [&](ContextKind kind) {
+        const auto context = make_context(kind);
+        Renderer renderer(scene, nullptr);
+        renderer.set_lighting(one_sun({1, 1, -0.5f}, 80000.0f));
+        renderer.draw(frame_of(look_at({0, 1.7f, 5}, {0, 1.5f, 0}, 1.0f), 320, 180));
+        return renderer.read_display();
+    };
+    Image egl, osmesa;
+    try {
+        egl = shown(ContextKind::Egl);
+        osmesa = shown(ContextKind::OsMesa);
+    } catch (const Error& error) {
+        GTEST_SKIP() << error.what();
+    }
+    for (std::size_t i = 0; i < egl.pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            EXPECT_LE(std::abs(encode_srgb(egl.pixels[i][c]) - encode_srgb(osmesa.pixels[i][c])), 1.0f / 255.0f);
+}
+
+}  // namespace
+}  // namespace daylit
