@@ -1,0 +1,160 @@
+// The atlas: nothing overlaps, nothing is left out, and a fetch never leaves its chart.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "engine/base/random.h"
+#include "gi/surface/atlas.h"
+#include "gi/surface/raster.h"
+#include "gi/surface/texels.h"
+
+namespace daylit {
+namespace {
+
+void add_triangle(WorldMesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c) {
+    for (const Vec3& p : {a, b, c}) {
+        mesh.indices.push_back(std::uint32_t(mesh.positions.size()));
+        mesh.positions.push_back(p);
+        mesh.normals.push_back(Vec3(0, 1, 0));
+    }
+    mesh.materials.push_back(0);
+    mesh.nodes.push_back(0);
+}
+
+void add_quad(WorldMesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    add_triangle(mesh, a, b, c);
+    add_triangle(mesh, a, c, d);
+}
+
+/// Two turns of a ramp about the vertical: seen from above its turns cover each other.
+WorldMesh spiral() {
+    WorldMesh mesh;
+    const auto rim = [](int i, float radius) {
+        const float turn = float(i) * float(kPi) / 16.0f;
+        return Vec3(radius * std::cos(turn), 0.08f * float(i), -radius * std::sin(turn));
+    };
+    for (int i = 0; i < 64; ++i) add_quad(mesh, rim(i, 1.0f), rim(i, 2.0f), rim(i + 1, 2.0f), rim(i + 1, 1.0f));
+    return mesh;
+}
+
+WorldMesh ball() {
+    WorldMesh mesh;
+    const auto at = [](int i, int j) {
+        const float polar = float(i) * float(kPi) / 16.0f, turn = float(j) * float(kPi) / 16.0f;
+        return Vec3(std::sin(polar) * std::cos(turn), std::cos(polar), -std::sin(polar) * std::sin(turn));
+    };
+    for (int i = 0; i < 16; ++i)
+        for (int j = 0; j < 32; ++j) add_quad(mesh, at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+    return mesh;
+}
+
+/// Triangles of all shapes and sizes at random, slivers among them, and one without area.
+WorldMesh gravel() {
+    WorldMesh mesh;
+    Random random(7, 0, 0);
+    const auto any = [&] { return Vec3(random.next(), random.next(), random.next()) - 0.5f; };
+    for (int i = 0; i < 300; ++i) {
+        const Vec3 middle = 20.0f * any();
+        const float size = std::exp2(8.0f * random.next() - 6.0f);
+        const Vec3 a = middle + size * any(), b = middle + size * any();
+        add_triangle(mesh, a, b, i % 10 == 0 ? glm::mix(a, b, 0.5f) + 1e-3f * any() : middle + size * any());
+    }
+    add_triangle(mesh, Vec3(1), Vec3(1), Vec3(2));
+    return mesh;
+}
+
+class Unwrap : public testing::TestWithParam<WorldMesh (*)()> {};
+
+TEST_P(Unwrap, EveryTriangleWithAreaHasOneChartAndStaysInTheAtlas) {
+    const WorldMesh mesh = GetParam()();
+    const Atlas atlas = make_atlas(mesh, 4000);
+    const std::vector<Facet> facet = facets(mesh);
+    ASSERT_EQ(atlas.corner_uvs.size(), 3 * mesh.triangle_count());
+    std::map<std::uint32_t, int> times;
+    for (const PlacedChart& c : atlas.charts)
+        for (std::uint32_t t : c.chart.triangles) ++times[t];
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
+        EXPECT_EQ(times[t], facet[t].area > 0.0f ? 1 : 0) << "triangle " << t;
+    for (const Vec2& uv : atlas.corner_uvs) {
+        EXPECT_TRUE(uv.x >= 0.0f && uv.x <= 1.0f && uv.y >= 0.0f && uv.y <= 1.0f);
+    }
+}
+
+TEST_P(Unwrap, NoTexelCentreLiesInTwoTriangles) {
+    const WorldMesh mesh = GetParam()();
+    const Atlas atlas = make_atlas(mesh, 4000);
+    std::map<std::pair<long, long>, std::uint32_t> owner;
+    int covered = 0;
+    for (const PlacedChart& c : atlas.charts) {
+        if (c.nx == 1 || c.ny == 1) continue;  // drawn on a line: its triangles share the texels by design
+        for (std::uint32_t t : c.chart.triangles) {
+            std::array<Vec2, 3> p;
+            for (std::size_t k = 0; k < 3; ++k)
+                p[k] = atlas.corner_uvs[3 * t + k] * Vec2(float(atlas.width), float(atlas.height));
+            for_cells_inside(p, 1e-2, [&](long x, long y) {
+                ++covered;
+                EXPECT_TRUE(owner.try_emplace({x, y}, t).second) << "triangle " << t << " and " << owner[{x, y}];
+                return true;
+            });
+        }
+    }
+    EXPECT_GT(covered, 300);
+}
+
+TEST_P(Unwrap, FetchesStayInTheirChart) {
+    const WorldMesh mesh = GetParam()();
+    const Atlas atlas = make_atlas(mesh, 4000);
+    Random random(1, 0, 0);
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+        if (atlas.chart_of_triangle[t] == kNoChart) continue;
+        const PlacedChart& c = atlas.charts[atlas.chart_of_triangle[t]];
+        for (int i = 0; i < 4; ++i) {
+            const float root = std::sqrt(random.next()), share = random.next();
+            const Vec2 uv = (1 - root) * atlas.corner_uvs[3 * t] + root * (1 - share) * atlas.corner_uvs[3 * t + 1] +
+                            root * share * atlas.corner_uvs[3 * t + 2];
+            const Vec2 low = uv * Vec2(float(atlas.width), float(atlas.height)) - 0.5f;
+            EXPECT_GE(int(std::floor(low.x)), c.x);
+            EXPECT_GE(int(std::floor(low.y)), c.y);
+            EXPECT_LT(int(std::floor(low.x)) + 1, c.x + c.atlas_width());
+            EXPECT_LT(int(std::floor(low.y)) + 1, c.y + c.atlas_height());
+        }
+    }
+}
+
+TEST_P(Unwrap, EveryTriangleHasTexelsNearIt) {
+    const WorldMesh mesh = GetParam()();
+    const Atlas atlas = make_atlas(mesh, 4000);
+    const Texels texels = make_texels(mesh, atlas);
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+        if (atlas.chart_of_triangle[t] == kNoChart) continue;
+        const TexelPoint centroid{t, Vec2(1.0f / 3.0f)};
+        const std::uint32_t texel = texels.at(atlas, t, position(mesh, centroid));
+        ASSERT_NE(texel, kNoTexel);
+        EXPECT_EQ(texels.chart[texel], atlas.chart_of_triangle[t]);
+        EXPECT_FALSE(texels.points_of(texel).empty());
+        EXPECT_LE(texels.points_of(texel).size(), 16u);
+    }
+}
+
+std::string surface_name(const testing::TestParamInfo<WorldMesh (*)()>& info) {
+    return info.index == 0 ? "Spiral" : info.index == 1 ? "Ball" : "Gravel";
+}
+INSTANTIATE_TEST_SUITE_P(Surfaces, Unwrap, testing::Values(&spiral, &ball, &gravel), surface_name);
+
+TEST(UnwrapBox, ABoxTakesSixCharts) {
+    WorldMesh mesh;
+    const Vec3 p[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+    const int faces[6][4] = {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {2, 3, 7, 6}, {1, 2, 6, 5}, {3, 0, 4, 7}};
+    for (const auto& f : faces) add_quad(mesh, p[f[0]], p[f[1]], p[f[2]], p[f[3]]);
+    const Atlas atlas = make_atlas(mesh, 600);
+    ASSERT_EQ(atlas.charts.size(), 6u);
+    for (const PlacedChart& c : atlas.charts) {
+        EXPECT_NEAR(c.chart.size.x, 1.0f, 1e-5f);  // turned along its edges, not its diagonal
+        EXPECT_NEAR(c.chart.size.y, 1.0f, 1e-5f);
+        EXPECT_EQ(c.nx, 10);
+    }
+}
+
+}  // namespace
+}  // namespace daylit
