@@ -1,6 +1,7 @@
 #pragma once
 // The panel at the window's left edge and the help page: Dear ImGui over WalkState.
 #include "demo/walk/state.h"
+#include "engine/render/renderer.h"
 
 namespace daylit {
 

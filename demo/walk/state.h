@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "demo/walk/gaze.h"
-#include "engine/render/renderer.h"
+#include "engine/scene/layer.h"
+#include "engine/scene/sky.h"
 
 namespace daylit {
 

@@ -10,6 +10,7 @@
 #include "demo/walk/sky_worker.h"
 #include "demo/walk/window.h"
 #include "engine/base/error.h"
+#include "engine/render/renderer.h"
 
 namespace daylit {
 namespace {
