@@ -101,7 +101,7 @@ class Walk {
         if (const auto number = std::exchange(state_.go_to, std::nullopt)) go_to(*number);
         if (std::exchange(state_.add_bookmark, false)) add_bookmark();
         if (std::exchange(state_.reload_shaders, false)) reload_shaders();
-        if (std::exchange(state_.screenshot, false)) save_picture();
+        if (state_.screenshot) redraw_ = true;  // saved once drawn: the window may have changed meanwhile
     }
 
     void go_to(std::size_t number) {
@@ -129,7 +129,6 @@ class Walk {
     }
 
     void save_picture() {
-        if (!drawn_) return;
         try {
             const std::filesystem::path path = free_picture_path(loaded_.scene, state_.hour);
             write_image(path, renderer_.read_display());
@@ -203,6 +202,7 @@ class Walk {
         if (adapting) adapt(drawn_ ? seconds : -1.0f);
         drawn_ = true;
         renderer_.present(0, width, height);
+        if (std::exchange(state_.screenshot, false)) save_picture();
         draw_panels();
         window_.end_panel_and_show();
         frame_milliseconds_ =
