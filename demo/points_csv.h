@@ -9,7 +9,7 @@
 
 namespace daylit {
 
-/// The first six numbers of each row, normals made unit. throws Error that names the line.
+/// Places and normals, these made unit. throws Error that names the line.
 std::vector<SurfaceSample> read_points(const std::filesystem::path& path);
 
 /// `irradiance`: one per point, or empty.

@@ -83,7 +83,7 @@ PointRows read_point_rows(const std::filesystem::path& path) {
         points.rows.push_back({Vec3(values[0], values[1], values[2]), Vec3(values[3], values[4], values[5]),
                                measured ? Rgb(values[6], values[7], values[8]) : Rgb(0.0f)});
     }
-    if (points.rows.empty()) throw Error(path.string(), "has no rows of points (x,y,z,nx,ny,nz)");
+    if (points.rows.empty()) throw Error(path.string(), "holds no points (x,y,z,nx,ny,nz); make some with daylit points --sample");
     return points;
 }
 
