@@ -1,20 +1,23 @@
 #pragma once
 // Tileable noise for textures: pure functions of place and seed.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-#include "engine/base/random.h"
 #include "engine/base/units.h"
 
 namespace daylit::content {
 
-/// Uniform in [0,1) for a lattice cell.
+/// Uniform in [0,1) for a lattice cell (two rounds of multiply and xorshift, as in Wellons' low-bias hashes).
 inline float hash_cell(int x, int y, std::uint32_t seed) {
-    return float(mix64((std::uint64_t(seed) << 48) ^ (std::uint64_t(std::uint32_t(x)) << 24) ^ std::uint32_t(y)) >> 40) *
-           0x1p-24f;
+    std::uint32_t h = std::uint32_t(x) * 0x8DA6B343u + std::uint32_t(y) * 0xD8163841u + seed * 0xCB1AB31Fu;
+    h = (h ^ (h >> 16)) * 0x7FEB352Du;
+    h = (h ^ (h >> 15)) * 0x846CA68Bu;
+    return float((h ^ (h >> 16)) >> 8) * 0x1p-24f;
 }
 
 inline int wrap(int i, int period) {
+    if (i >= 0 && i < period) return i;  // nearly always
     return (i % period + period) % period;
 }
 
@@ -24,8 +27,9 @@ inline float value_noise(Vec2 p, int period_x, int period_y, std::uint32_t seed)
     const int x = int(fx), y = int(fy);
     Vec2 t = p - Vec2(fx, fy);
     t = t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f);
-    const auto at = [&](int i, int j) { return hash_cell(wrap(x + i, period_x), wrap(y + j, period_y), seed); };
-    return glm::mix(glm::mix(at(0, 0), at(1, 0), t.x), glm::mix(at(0, 1), at(1, 1), t.x), t.y);
+    const int x0 = wrap(x, period_x), x1 = wrap(x0 + 1, period_x), y0 = wrap(y, period_y), y1 = wrap(y0 + 1, period_y);
+    return glm::mix(glm::mix(hash_cell(x0, y0, seed), hash_cell(x1, y0, seed), t.x),
+                    glm::mix(hash_cell(x0, y1, seed), hash_cell(x1, y1, seed), t.x), t.y);
 }
 
 /// Octaves of value noise over the unit square, repeating; `cells` lattice steps across for the first. In [0,1].

@@ -1,12 +1,13 @@
 #include "content/textures.h"
 
-#include <stb/stb_image_write.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "content/noise.h"
+#include "content/png.h"
 #include "engine/base/image.h"
 
 namespace daylit::content {
@@ -14,18 +15,6 @@ namespace {
 
 std::uint8_t byte(float v) {
     return std::uint8_t(std::clamp(v, 0.0f, 1.0f) * 255.0f + 0.5f);
-}
-
-std::vector<std::uint8_t> encode_png(int width, int height, int channels, const std::vector<std::uint8_t>& pixels) {
-    std::vector<std::uint8_t> png;
-    stbi_write_png_to_func(
-        [](void* out, void* data, int size) {
-            const auto* bytes = static_cast<const std::uint8_t*>(data);
-            static_cast<std::vector<std::uint8_t>*>(out)->insert(static_cast<std::vector<std::uint8_t>*>(out)->end(),
-                                                                 bytes, bytes + size);
-        },
-        &png, width, height, channels, pixels.data(), width * channels);
-    return png;
 }
 
 std::vector<Texel> evaluate(const Pattern& p) {
@@ -40,10 +29,15 @@ std::vector<Texel> evaluate(const Pattern& p) {
 
 std::vector<std::uint8_t> color_png(const Pattern& p, const std::vector<Texel>& texels) {
     const int channels = p.alpha_mode == AlphaMode::Opaque ? 3 : 4;
+    static const std::vector<std::uint8_t> coded = [] {  // fine enough that no step at the dark end exceeds one code
+        std::vector<std::uint8_t> table;
+        for (int i = 0; i <= 16384; ++i) table.push_back(byte(encode_srgb(float(i) / 16384.0f)));
+        return table;
+    }();
     std::vector<std::uint8_t> pixels;
     pixels.reserve(texels.size() * std::size_t(channels));
     for (const Texel& t : texels) {
-        for (int c = 0; c < 3; ++c) pixels.push_back(byte(encode_srgb(t.color[c])));
+        for (int c = 0; c < 3; ++c) pixels.push_back(coded[std::size_t(std::clamp(t.color[c], 0.0f, 1.0f) * 16384.0f + 0.5f)]);
         if (channels == 4) pixels.push_back(byte(t.alpha));
     }
     return encode_png(p.width, p.height, channels, pixels);
@@ -95,8 +89,15 @@ Course course(Vec2 uv, Vec2 tile, int columns, int rows, float shift) {
     return {column, row, in, std::min(std::min(in.x, size.x - in.x), std::min(in.y, size.y - in.y))};
 }
 
-Rgb srgb(float r, float g, float b) {
-    return {decode_srgb(r / 255.0f), decode_srgb(g / 255.0f), decode_srgb(b / 255.0f)};
+// Tables, since the power function would take most of the time: coded bytes to linear, and linear to coded bytes.
+const std::array<float, 256> kLinear = [] {
+    std::array<float, 256> table{};
+    for (std::size_t i = 0; i < table.size(); ++i) table[i] = decode_srgb(float(i) / 255.0f);
+    return table;
+}();
+
+Rgb srgb(int r, int g, int b) {
+    return {kLinear[std::size_t(r)], kLinear[std::size_t(g)], kLinear[std::size_t(b)]};
 }
 
 }  // namespace
@@ -141,7 +142,7 @@ std::vector<int> add_patterns(Level& level, const std::vector<Pattern>& patterns
 // Monk brick in Flemish-like bond: 8 stretchers to 2.16 m, 20 courses to 1.7 m (old Danish "munkesten" are about
 // 26 x 12.5 x 8.5 cm with the joint).
 Pattern brick() {
-    Pattern p{.name = "brick", .tile = {2.16f, 1.7f}, .width = 1024, .height = 1024, .texel = {}};
+    Pattern p{.name = "brick", .tile = {2.16f, 1.7f}, .width = 768, .height = 768, .texel = {}};
     p.texel = [tile = p.tile](Vec2 uv) {
         const Vec2 bent = uv + 0.0014f * Vec2(fractal_noise(uv, 24, 24, 2, 3) - 0.5f, fractal_noise(uv, 24, 24, 2, 4) - 0.5f);
         const Course c = course(glm::fract(bent), tile, 8, 20, 0.5f);
@@ -247,7 +248,7 @@ Pattern oak_floor() {
 
 // Slabs of 0.75 m, pale and dark by turns, with veins; polished.
 Pattern marble_floor() {
-    Pattern p{.name = "marble", .tile = {3.0f, 3.0f}, .width = 1024, .height = 1024, .texel = {}, .roughness_map = true};
+    Pattern p{.name = "marble", .tile = {3.0f, 3.0f}, .width = 768, .height = 768, .texel = {}, .roughness_map = true};
     p.texel = [tile = p.tile](Vec2 uv) {
         const Course c = course(uv, tile, 4, 4, 0.0f);
         const bool dark = (c.column + c.row) % 2;
@@ -405,7 +406,7 @@ Pattern leaded_glass() {
 }
 
 Pattern cobbles() {
-    Pattern p{.name = "cobbles", .tile = {2.0f, 2.0f}, .width = 1024, .height = 1024, .texel = {}};
+    Pattern p{.name = "cobbles", .tile = {2.0f, 2.0f}, .width = 768, .height = 768, .texel = {}};
     p.texel = [](Vec2 uv) {
         const Worley w = worley(uv, 15, 111, 0.62f);
         const float dome = ramp(0.02f, 0.42f, w.second - w.first), grain = fractal_noise(uv, 90, 90, 3, 112);
