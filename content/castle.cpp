@@ -134,12 +134,12 @@ void add_cameras(Castle& c) {
     l.add_camera("courtyard", {9.6f, 1.65f, 8.8f}, {-6.5f, 5.2f, -9.0f}, 65);
     l.add_camera("arcade", {-13.2f, 1.65f, -12.6f}, {6.0f, 1.9f, -11.6f}, 60);
     l.add_camera("cellar_entrance", {-12.2f, 1.65f, 8.4f}, {-13.3f, -0.9f, 2.6f}, 62);
-    l.add_camera("cellar_maze", {-6.4f, -1.77f, 4.3f}, {-11.4f, -2.0f, 4.1f}, 65);
+    l.add_camera("cellar_maze", {-6.2f, -1.77f, 4.45f}, {-11.4f, -2.0f, 4.1f}, 65);
     l.add_camera("door", {2.2f, 1.95f, 16.6f}, {6.2f, 1.7f, 11.6f}, 60);
     l.add_camera("cart", {-3.2f, 1.5f, 18.9f}, {-6.0f, 0.95f, 21.2f}, 55);
     l.add_camera("figure", {-0.4f, 1.65f, -4.9f}, {3.4f, 1.2f, -8.2f}, 55);
-    l.add_camera("tower", {-14.1f, 27.4f, -10.1f}, {2.0f, 0.0f, 4.0f}, 65);
-    l.add_camera("overview", {44.0f, 30.0f, 50.0f}, {-1.0f, 4.0f, 2.0f}, 50);
+    l.add_camera("tower", {-15.34f, 26.9f, -9.66f}, {-2.0f, 0.0f, 2.5f}, 60);
+    l.add_camera("overview", {41.0f, 25.5f, 46.0f}, {-1.0f, 4.0f, 2.0f}, 50);
 }
 
 }  // namespace daylit::content

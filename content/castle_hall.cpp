@@ -143,13 +143,13 @@ void add_feast(Castle& c) {
         for (float side : {-1.0f, 1.0f}) {
             const Vec3 place(x + 0.1f * std::sin(float(i) * 2.3f + side), top, table.z + side * 0.36f);
             b.at(place).material(i % 3 == 1 ? use.earthenware : use.silver);
-            b.lathe(std::array{Vec2(0, 0.002f), Vec2(0.08f, 0.002f), Vec2(0.13f, 0.02f), Vec2(0.13f, 0.025f), Vec2(0.08f, 0.01f), Vec2(0, 0.01f)}, 20);
+            b.lathe(std::array{Vec2(0, 0.002f), Vec2(0.08f, 0.002f), Vec2(0.13f, 0.02f), Vec2(0.13f, 0.025f), Vec2(0.08f, 0.01f), Vec2(0, 0.01f)}, 14);
             b.at(Mat4(1.0f));
             add_goblet(b, i % 2 ? use.silver : use.brass, place + Vec3(0.2f, 0, -side * 0.06f), 0.16f);
             if ((i + int(side)) % 3 == 0) {
                 b.at(placed(place + Vec3(0, 0.045f, 0), float(i))).material(use.bread);
                 b.at(placed(place + Vec3(0, 0.05f, 0), float(i)) * glm::mat4(Vec4(1.4f, 0, 0, 0), Vec4(0, 0.6f, 0, 0), Vec4(0, 0, 0.9f, 0), Vec4(0, 0, 0, 1)));
-                b.sphere({0, 0, 0}, 0.075f, 14);
+                b.sphere({0, 0, 0}, 0.075f, 10);
                 b.at(Mat4(1.0f));
             }
         }
@@ -161,9 +161,9 @@ void add_feast(Castle& c) {
         b.at(Mat4(1.0f)).material(use.apple);
         for (int i = 0; i < 6; ++i) {
             const float a = 1.05f * float(i);
-            b.sphere({x + 0.1f * std::cos(a), top + 0.1f, table.z + 0.1f * std::sin(a)}, 0.042f, 12);
+            b.sphere({x + 0.1f * std::cos(a), top + 0.1f, table.z + 0.1f * std::sin(a)}, 0.042f, 8);
         }
-        b.sphere({x, top + 0.15f, table.z}, 0.042f, 12);
+        b.sphere({x, top + 0.15f, table.z}, 0.042f, 8);
     }
     for (float x : {-4.6f, 4.0f}) {  // wine jugs
         b.at(Vec3(x, top, table.z + 0.05f)).material(use.silver);
@@ -281,13 +281,8 @@ void add_chandeliers(Castle& c) {
         }
         b.material(c.use.iron);
         b.sphere(centre, 0.09f, 12);
-        for (int i = 0; i < 20; ++i) {  // chain to the ceiling
-            const float y = centre.y + 1.34f + 0.16f * float(i);
-            if (y > 9.2f) break;
-            const Vec3 side = i % 2 ? Vec3(0.03f, 0, 0) : Vec3(0, 0, 0.03f);
-            b.tube(std::array{centre + Vec3(0, y - centre.y - 0.09f, 0), Vec3(x, y, centre.z) + side, Vec3(x, y + 0.1f, centre.z)}, 0.01f, 4);
-            b.tube(std::array{centre + Vec3(0, y - centre.y - 0.09f, 0), Vec3(x, y, centre.z) - side, Vec3(x, y + 0.1f, centre.z)}, 0.01f, 4);
-        }
+        b.tube(std::array{centre + Vec3(0, 1.28f, 0), Vec3(x, kHallCeiling + 0.02f, centre.z)}, 0.018f, 6);
+        b.sphere(centre + Vec3(0, 1.3f, 0), 0.06f, 10);
         // The lamp shines from the middle of the ring, where no candle is in its way.
         c.level.add_lamp({"chandelier " + std::to_string(number++), Rgb(1.0f, 0.56f, 0.22f) * 620.0f}, centre + Vec3(0, 0.26f, 0));
     }

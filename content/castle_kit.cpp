@@ -25,16 +25,16 @@ void add_candle(MeshBuilder& b, const Palette& use, const Vec3& foot, float heig
 void add_barrel(MeshBuilder& b, const Palette& use, const Mat4& place) {
     b.at(place).material(use.oak);
     std::vector<Vec2> staves = {{0.0f, 0.04f}, {0.27f, 0.04f}, {0.275f, 0.0f}, {0.3f, 0.0f}};
-    for (int i = 1; i <= 6; ++i) {
-        const float t = float(i) / 6.0f;
+    for (int i = 1; i <= 5; ++i) {
+        const float t = float(i) / 5.0f;
         staves.emplace_back(0.3f + 0.07f * std::sin(float(kPi) * t), 0.9f * t);
     }
     staves.insert(staves.end(), {{0.275f, 0.9f}, {0.27f, 0.86f}, {0.0f, 0.86f}});
-    b.lathe(staves, 20);
+    b.lathe(staves, 16);
     b.material(use.iron);
     for (float y : {0.07f, 0.25f, 0.65f, 0.83f}) {
         const float r = 0.3f + 0.07f * std::sin(float(kPi) * y / 0.9f) + 0.002f;
-        b.lathe(std::array{Vec2(r, y - 0.025f), Vec2(r + 0.006f, y - 0.025f), Vec2(r + 0.006f, y + 0.025f), Vec2(r, y + 0.025f)}, 20);
+        b.lathe(std::array{Vec2(r, y - 0.025f), Vec2(r + 0.006f, y - 0.025f), Vec2(r + 0.006f, y + 0.025f), Vec2(r, y + 0.025f)}, 16);
     }
     b.at(Mat4(1.0f));
 }
@@ -77,7 +77,7 @@ void add_goblet(MeshBuilder& b, int material, const Vec3& foot, float height) {
                           {0.2f, 0.6f}, {0, 0.54f}};
     std::vector<Vec2> profile;
     for (const Vec2& p : shape) profile.push_back(p * height);
-    b.at(foot).material(material).lathe(profile, 14);
+    b.at(foot).material(material).lathe(profile, 10);
     b.at(Mat4(1.0f));
 }
 
@@ -91,7 +91,7 @@ void add_column(MeshBuilder& b, int material, const Vec3& foot, float r, float h
                                 Vec2(0.97f * r, 0.6f * height), Vec2(0.92f * r, top - 0.3f), Vec2(1.0f * r, top - 0.29f),
                                 Vec2(1.0f * r, top - 0.25f), Vec2(0.92f * r, top - 0.24f), Vec2(1.0f * r, top - 0.12f),
                                 Vec2(1.3f * r, top - 0.02f), Vec2(1.36f * r, top + 0.01f), Vec2(0, top + 0.01f)};
-    b.lathe(profile, 24);
+    b.lathe(profile, 18);
     b.bevel_box({-w, top, -w}, {w, height + 0.03f, w}, 0.025f);
     b.at(Mat4(1.0f));
 }
@@ -124,7 +124,7 @@ void add_hanging(MeshBuilder& b, const Castle& c, int cloth, const Vec3& top, Fa
     b.material(use.dark_oak);
     b.tube(std::array{Vec3(-0.5f * size.x - 0.12f, 0.02f, 0), Vec3(0.5f * size.x + 0.12f, 0.02f, 0)}, 0.03f, 8);
     b.material(use.brass);
-    for (float x : {-0.5f * size.x - 0.14f, 0.5f * size.x + 0.14f}) b.sphere({x, 0.02f, 0}, 0.05f, 12);
+    for (float x : {-0.5f * size.x - 0.14f, 0.5f * size.x + 0.14f}) b.sphere({x, 0.02f, 0}, 0.05f, 8);
     b.at(Mat4(1.0f));
 }
 
@@ -148,7 +148,7 @@ void add_shield(MeshBuilder& b, const Palette& use, int field, const Vec3& centr
     b.material(use.gold);
     b.band(rim, inner, true);
     b.band(back, rim, true);
-    b.material(use.steel).sphere({0, 0.02f, 0.1f}, 0.06f, 14);
+    b.material(use.steel).sphere({0, 0.02f, 0.1f}, 0.06f, 10);
     b.at(Mat4(1.0f));
 }
 

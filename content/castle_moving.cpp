@@ -52,11 +52,11 @@ void add_door(Castle& c) {
         b.tube(ring, 0.01f, 6);
     }
     LevelNode door;
-    door.name = "door";
+    door.name = "swinging door";
     // Seen from the hall (facing north) the hinge is on the right, at the larger x.
     door.translation = {6.2f + 0.93f, kHallFloor, 11.9f};
     door.rotation = glm::angleAxis(float(56.0 * kDegree), Vec3(0, 1, 0));
-    door.mesh = c.level.add_mesh(b.take("door"));
+    door.mesh = c.level.add_mesh(b.take("door leaf"));
     const int node = c.level.add_node(door);
     LevelChannel swing{node, AnimationPath::Rotation, {}, {}};
     // Between 8 and 104 degrees, as in a slow draught; half open at the start.
@@ -107,13 +107,13 @@ void add_cart(Castle& c) {
     b.lathe(std::array{Vec2(0, 0.0f), Vec2(0.25f, 0.0f), Vec2(0.27f, 0.02f), Vec2(0.262f, 0.02f), Vec2(0.245f, 0.008f), Vec2(0, 0.008f)}, 32);
     b.at(Mat4(1.0f));
     const Mat4 pot = placed({-0.02f, 0.669f, 0.02f}, -0.6f, 0.085f);
-    add_teapot(b, use.brass, pot, 8);
+    add_teapot(b, use.brass, pot, 6);
     for (float x : {0.16f, -0.02f}) {
         b.at(Vec3(x, 0.668f, x > 0 ? 0.14f : -0.19f)).material(use.earthenware);
         b.lathe(std::array{Vec2(0, 0), Vec2(0.02f, 0), Vec2(0.035f, 0.03f), Vec2(0.038f, 0.055f), Vec2(0.034f, 0.055f), Vec2(0.03f, 0.03f), Vec2(0, 0.01f)}, 16);
     }
     LevelNode cart;
-    cart.name = "cart";
+    cart.name = "rolling cart";
     cart.translation = {from, kHallFloor, 20.9f};
     cart.mesh = c.level.add_mesh(b.take("cart with teapot"));
     const int node = c.level.add_node(cart);

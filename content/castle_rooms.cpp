@@ -224,7 +224,7 @@ void furnish_treasury(Castle& c) {
     b.lathe(std::array{Vec2(0, 0), Vec2(0.1f, 0.01f), Vec2(0.2f, 0.09f), Vec2(0.21f, 0.11f), Vec2(0.19f, 0.1f), Vec2(0.1f, 0.05f), Vec2(0, 0.04f)}, 24);
     b.at(Mat4(1.0f));
     add_candle(b, c.use, lamp - Vec3(0, 0.17f, 0), 0.08f);
-    c.level.add_object(b.take("treasury lamp"));
+    c.level.add_object(b.take("hanging lamp"));
     c.level.add_lamp({"treasury lamp", Rgb(1.0f, 0.58f, 0.25f) * 90.0f}, lamp + Vec3(0, 0.06f, 0));
 }
 
@@ -232,7 +232,7 @@ void furnish_cellar(Castle& c) {
     MeshBuilder b;
     const float y = kCellarFloor;
     const Vec3 barrels[] = {{-13.6f, y, -2.6f}, {-13.6f, y, -2.0f}, {-7.1f, y, -7.2f}, {-6.4f, y, -7.2f}, {2.0f, y, -0.6f}, {4.8f, y, 6.8f}, {4.8f, y, 6.1f},
-                            {-9.3f, y, 3.9f}, {0.6f, y, 4.5f}};
+                            {-9.3f, y, 3.8f}, {0.6f, y, 4.5f}};
     int i = 0;
     for (const Vec3& at : barrels) add_barrel(b, c.use, placed(at, 0.7f * float(i++)));
     add_barrel(b, c.use, placed({-13.55f, y + 0.9f, -2.3f}, 1.3f));
@@ -258,13 +258,13 @@ void furnish_courtyard(Castle& c) {
         for (float e : {0.15f, 1.95f}) b.bevel_box({x + e, -0.01f, 10.42f}, {x + e + 0.3f, 0.365f, 10.85f}, 0.02f);
     }
     for (const auto& [at, radius] : {std::pair{Vec3(-3.0f, 0, 10.3f), 0.5f}, {Vec3(2.2f, 0, 10.4f), 0.45f}, {Vec3(13.2f, 0, -0.5f), 0.6f},
-                                     {Vec3(13.3f, 0, 1.1f), 0.5f}, {Vec3(13.2f, 0, -8.4f), 0.6f}, {Vec3(-13.2f, 0, 8.4f), 0.55f}})
+                                     {Vec3(13.3f, 0, 1.1f), 0.5f}, {Vec3(13.2f, 0, -8.4f), 0.6f}, {Vec3(-9.0f, 0, 10.3f), 0.55f}})
         add_bush(b, c.use, at, radius, std::uint64_t(number++));
     c.level.add_object(b.take("courtyard things"));
 
-    add_tree(b, c.use, 1, 6.4f, 420);
+    add_tree(b, c.use, 1, 6.4f, 400);
     const int linden = c.level.add_mesh(b.take("linden"));
-    add_tree(b, c.use, 2, 9.5f, 620);
+    add_tree(b, c.use, 2, 9.5f, 430);
     const int old_linden = c.level.add_mesh(b.take("old linden"));
     const auto plant = [&](int mesh, const Vec3& at, float yaw, float scale) {
         LevelNode node;

@@ -75,7 +75,7 @@ void add_blind_window(Castle& c, MeshBuilder& b, const Vec3& foot, Facing facing
               .sill = c.use.ashlar};
     add_opening(c.blocks, b, o);
     add_surround(b, o, false, 0.16f, 0.05f, c.use.ashlar);
-    add_tracery(b, o, o.loops.back(), head, spring,
+    add_tracery(b, o, o.loops.back(), Head::Flat, spring + head_height(head, width - 0.16f),
                 {.depth = 0.3f, .lights = width > 1.0f ? 2 : 1, .transoms = 2, .bar = 0.035f, .sides = 4, .bar_material = c.use.ashlar});
     b.at(wall_frame(o)).material(c.use.dark_glass);
     std::vector<Vec3> pane;

@@ -179,13 +179,13 @@ LevelMesh brass_knight(int material) {
     add({0, 0.98f, -0.08f}, {0, 0.3f, -0.13f}, 0.09f, 0.125f, 0.03f, {1.5f, 1, 0.5f});
     add({0, 0.3f, -0.13f}, {0, 0.1f, -0.15f}, 0.125f, 0.14f, 0.03f, {1.5f, 1, 0.5f});
     add({0, 0.015f, 0.03f}, {0, 0.015f, 0.03f}, 0.24f, 0.24f, 0.015f, {1, 0.16f, 1});
-    return polygonise(s, 0.018f, {material}, false, "brass figure");
+    return polygonise(s, 0.0215f, {material}, false, "brass figure");
 }
 
 void add_walker(Castle& c) {
     Level& level = c.level;
     LevelNode walker;
-    walker.name = "walker";
+    walker.name = "walking figure";
     walker.translation = {3.0f, 0, -7.0f};
     walker.rotation = glm::angleAxis(-float(kPi) / 2, Vec3(0, 1, 0));
     const int way = level.add_node(walker);
@@ -202,7 +202,7 @@ void add_walker(Castle& c) {
     const Palette& use = c.use;
     LevelNode body;
     body.name = "figure body";
-    body.mesh = level.add_mesh(polygonise(townsman(), 0.022f, {use.blue_wool, use.skin, use.hair, use.wool, use.leather, use.red_wool}, true, "townsman"));
+    body.mesh = level.add_mesh(polygonise(townsman(), 0.025f, {use.blue_wool, use.skin, use.hair, use.wool, use.leather, use.red_wool}, true, "townsman"));
     body.skin = int(level.skins.size()) - 1;
     level.add_node(body, way);
     const float period = 1.08f, stride = 1.3f;  // two steps

@@ -6,7 +6,7 @@
 namespace daylit::content {
 namespace {
 
-constexpr int kHeadSteps = 16;  // even, so that the middle of the head is a point
+constexpr int kHeadSteps = 12;  // even, so that the middle of the head is a point
 constexpr float kPointedRise = 0.8660254f;  // equilateral arch: both arcs have the width as radius
 constexpr float kSegmentalRise = 0.2f;
 

@@ -362,7 +362,7 @@ Pattern tapestry() {
                 }
             }
         }
-        Texel t = woven(dye, uv, 384, 512);
+        Texel t = woven(dye, uv, 192, 256);
         t.color *= 0.85f + 0.3f * fractal_noise(uv, 4, 6, 4, 103);
         return t;
     };
@@ -377,14 +377,14 @@ Pattern banner() {
         const Vec2 q(uv.x - 0.5f, 2.5f * uv.y);
         Rgb dye = std::abs(q.x + 0.08f) < 0.075f || std::abs(q.y - 0.85f) < 0.075f ? white : red;
         if (0.5f - std::abs(q.x) < 0.035f) dye = gold;
-        return woven(dye, uv, 128, 256);
+        return woven(dye, uv, 64, 128);
     };
     return p;
 }
 
 Pattern linen() {
     Pattern p{.name = "wool", .tile = {0.4f, 0.4f}, .width = 128, .height = 128, .texel = {}};
-    p.texel = [](Vec2 uv) { return woven(Rgb(0.82f), uv, 64, 64); };
+    p.texel = [](Vec2 uv) { return woven(Rgb(0.82f), uv, 32, 32); };
     return p;
 }
 

@@ -227,24 +227,37 @@ TEST(Content, OneCanWalkFromTheGateThroughEveryRoom) {
     // The door stands half open and people move: only what is fixed counts.
     const WorldMesh fixed = world_mesh(c.scene, c.pose, Part::Static);
     const std::vector<std::vector<Vec2>> ways = {
-        {{-30, -4.5f}, {-8, -4.5f}, {6.2f, 8}, {6.2f, 14}, {12, 14.9f}},          // gate, courtyard, hall, dais
+        {{-30, -4.5f}, {-8, -4.5f}, {4, -2}, {6.2f, 8}, {6.2f, 14}, {12, 14.9f}},          // gate, courtyard, hall, dais
         {{6, 5.5f}, {16.5f, 5.5f}, {19, 4}},                                       // courtyard, treasury
         {{-8, -4.5f}, {-8, -12}, {8, -12}},                                        // arcade
-        {{-11, 9.5f}, {-13.2f, 8}, {-13.2f, -0.2f}, {-11, -0.2f}, {-11, 4.2f}, {-6.6f, 4.2f}}};  // stairs, maze
+        {{-11, 9.5f}, {-13.2f, 8}, {-13.2f, -0.2f}, {-11, -0.2f}, {-11, 4.55f}, {-6.6f, 4.55f}}};  // stairs, maze
+    WorldMesh around = fixed;  // with only the triangles near the present stretch
+    const auto keep_near = [&](const Vec2& a, const Vec2& b) {
+        around.indices.clear();
+        for (std::size_t i = 0; i < fixed.indices.size(); i += 3) {
+            Bounds box;
+            for (std::size_t k = 0; k < 3; ++k) box.add(fixed.positions[fixed.indices[i + k]]);
+            const bool far = box.max.x < std::min(a.x, b.x) || box.min.x > std::max(a.x, b.x) ||
+                             box.max.z < std::min(a.y, b.y) || box.min.z > std::max(a.y, b.y);
+            if (!far) around.indices.insert(around.indices.end(), &fixed.indices[i], &fixed.indices[i] + 3);
+        }
+    };
     const auto floor_below = [&](Vec2 p, float from) {
-        const std::optional<float> d = hit(fixed, {p.x, from, p.y}, {0, -1, 0}, 30.0f);
+        const std::optional<float> d = hit(around, {p.x, from, p.y}, {0, -1, 0}, 30.0f);
         return d ? from - *d : -100.0f;
     };
     for (const auto& way : ways) {
+        keep_near(way[0], way[0]);
         float foot = floor_below(way[0], 1.0f);
         for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+            keep_near(way[i], way[i + 1]);
             const int steps = int(glm::length(way[i + 1] - way[i]) / 0.1f) + 1;
             for (int k = 1; k <= steps; ++k) {
                 const Vec2 p = glm::mix(way[i], way[i + 1], float(k) / float(steps));
                 const float next = floor_below(p, foot + 0.9f);
                 ASSERT_LE(std::abs(next - foot), 0.2f) << "step at " << p.x << ", " << p.y;
                 foot = next;
-                EXPECT_FALSE(hit(fixed, {p.x, foot + 0.3f, p.y}, {0, 1, 0}, 1.7f)) << "head at " << p.x << ", " << p.y;
+                EXPECT_FALSE(hit(around, {p.x, foot + 0.3f, p.y}, {0, 1, 0}, 1.7f)) << "head at " << p.x << ", " << p.y;
             }
         }
     }
