@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kWhite = 100.0;  // cd/m^2
 constexpr int kLevels = 8, kBands = kLevels - 2;
+constexpr double kLowestElevation = 1.0, kHighestElevation = 10.0;  // of the threshold by masking
 
 using Plane = std::vector<float>;
 
@@ -105,6 +106,15 @@ std::vector<unsigned char> yee_visible(const Image& a, const Image& b, double pi
     tbb::parallel_for(std::size_t(0), visible.size(), [&](std::size_t p) {
         const double adaptation =
             std::max(0.5 * (levels_a[std::size_t(adapting)][p] + levels_b[std::size_t(adapting)][p]), 1e-5);
+        const double lightness = std::abs(levels_a[0][p] - levels_b[0][p]) / threshold(adaptation);
+        const double by_night = adaptation < 10.0 ? 0.01 : 1.0;  // hue is hardly seen in the dark
+        const Vec2 hue = chroma(a.pixels[p]) - chroma(b.pixels[p]);
+        const double difference = std::max(lightness, by_night * double(glm::dot(hue, hue)));
+        if (difference <= kLowestElevation || difference > kHighestElevation) {
+            visible[p] = difference > kHighestElevation;
+            return;
+        }
+        // Contrasts nearby raise the threshold.
         double sum = 0, weighted = 0;
         for (std::size_t i = 0; i < std::size_t(kBands); ++i) {
             const double band = std::max(std::abs(levels_a[i][p] - levels_a[i + 1][p]),
@@ -114,11 +124,8 @@ std::vector<unsigned char> yee_visible(const Image& a, const Image& b, double pi
             sum += contrast;
             weighted += contrast * weight[i] * masking(contrast * contrast_sensitivity(frequency[i], adaptation));
         }
-        const double elevation = std::clamp(weighted / std::max(sum, 1e-5), 1.0, 10.0);
-        const double lightness = std::abs(levels_a[0][p] - levels_b[0][p]) / threshold(adaptation);
-        const double by_night = adaptation < 10.0 ? 0.01 : 1.0;  // hue is hardly seen in the dark
-        const Vec2 hue = chroma(a.pixels[p]) - chroma(b.pixels[p]);
-        visible[p] = lightness > elevation || by_night * glm::dot(hue, hue) > elevation;
+        const double elevation = std::clamp(weighted / std::max(sum, 1e-5), kLowestElevation, kHighestElevation);
+        visible[p] = difference > elevation;
     });
     return visible;
 }
