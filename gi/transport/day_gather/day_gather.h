@@ -57,8 +57,8 @@ GatherHits trace_hits(const GatherScene& scene, const GatherSettings& settings, 
 std::vector<Rgb> lamp_irradiance(const GatherScene& scene, const GatherHits& hits, const GatherSettings& settings,
                                  const StageProgress& progress);
 
-/// Straight light of suns on every receiver: adds to out[receiver * stride], lux.
-void add_sun_irradiance(const GatherScene& scene, const GatherHits& hits, std::span<const Sun> suns,
+/// Straight light of the suns on one receiver at each hour: added to out[hour], lux.
+void add_sun_irradiance(const GatherScene& scene, const GatherHits& hits, std::span<const Lighting> hours,
                         const GatherSettings& settings, std::size_t receiver, Rgb* out);
 
 /// Mean radiance of the sky's bins, cd/m^2.

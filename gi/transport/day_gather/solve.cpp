@@ -36,8 +36,7 @@ class Block {
         }
         for_each_parallel(receivers_, progress, [&](std::size_t r) {
             Row direct = black();
-            for (std::size_t c = 0; c < hours.size(); ++c)
-                add_sun_irradiance(scene_, hits_, hours[c].suns, settings_, r, &direct[c]);
+            add_sun_irradiance(scene_, hits_, hours, settings_, r, direct.data());
             if (constant_last) {
                 direct[hours.size()] = lamps[r] + hits_.emission[r];
                 indirect_[r][hours.size()] = hits_.emission[r];

@@ -105,24 +105,28 @@ std::vector<Rgb> lamp_irradiance(const GatherScene& scene, const GatherHits& hit
     return result;
 }
 
-void add_sun_irradiance(const GatherScene& scene, const GatherHits& hits, std::span<const Sun> suns,
+void add_sun_irradiance(const GatherScene& scene, const GatherHits& hits, std::span<const Lighting> hours,
                         const GatherSettings& settings, std::size_t receiver, Rgb* out) {
-    if (suns.empty() || hits.buried(receiver)) return;
+    if (hits.buried(receiver)) return;
     const UsablePoints points(scene, hits, receiver);
     if (points.empty()) return;
-    Random random(settings.seed, receiver, kSunStream);
-    for (const Sun& sun : suns)
-        for (int s = 0; s < kSunSamples; ++s) {
-            // Stratified over the points and the rings of the disc; the same for every hour, so that noise stands still.
-            const Place& place = points.any((float(s) + random.next()) / float(kSunSamples));
-            const Vec2 u((float((s * 3) % kSunSamples) + random.next()) / float(kSunSamples), random.next());
-            const Vec3 direction = sample_sun_disc(sun.direction, u);
-            const float cosine = glm::dot(direction, place.normal);
-            if (cosine <= 0.0f) continue;
-            const Vec3 origin = RayScene::offset_origin(place.position, place.normal, direction);
-            const float open = scene.rays.transmittance({origin, direction});
-            *out += cosine * open / float(kSunSamples) * sun.irradiance;
-        }
+    for (std::size_t hour = 0; hour < hours.size(); ++hour) {
+        // The same numbers at every hour, so that noise stands still.
+        Random random(settings.seed, receiver, kSunStream);
+        for (const Sun& sun : hours[hour].suns)
+            for (int s = 0; s < kSunSamples; ++s) {
+                // Stratified over the points and the rings of the disc.
+                const Place& place = points.any((float(s) + random.next()) / float(kSunSamples));
+                const Vec2 u((float((s * 3) % kSunSamples) + random.next()) / float(kSunSamples), random.next());
+                if (glm::dot(sun.direction, place.normal) < -float(kSunRadius)) continue;
+                const Vec3 direction = sample_sun_disc(sun.direction, u);
+                const float cosine = glm::dot(direction, place.normal);
+                if (cosine <= 0.0f) continue;
+                const Vec3 origin = RayScene::offset_origin(place.position, place.normal, direction);
+                const float open = scene.rays.transmittance({origin, direction});
+                out[hour] += cosine * open / float(kSunSamples) * sun.irradiance;
+            }
+    }
 }
 
 std::uint32_t sky_bin(const Vec3& direction) {
