@@ -166,6 +166,7 @@ void draw_panel(WalkState& state, const PanelFacts& facts) {
         if (!state.message.empty()) ImGui::TextWrapped("%s", state.message.c_str());
         ImGui::PopItemWidth();
     }
+    state.panel_size = Vec2(ImGui::GetWindowSize().x, ImGui::GetWindowSize().y);
     ImGui::End();
 }
 

@@ -31,6 +31,7 @@ struct WalkState {
 
     // The window
     bool panel = true;
+    Vec2 panel_size = Vec2(0.0f);  // what it covers of the upper left corner, as last drawn
     bool help = false;
     bool pass_times = false;  // the panel's table is open, so passes are timed
     std::string message;      // last thing that happened, one line or a shader log

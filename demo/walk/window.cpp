@@ -117,7 +117,12 @@ void WalkWindow::press(int key, bool shift) {
 void WalkWindow::on_button(GLFWwindow* window, int, int action, int) {
     WalkWindow& me = self(window);
     me.stir();
-    if (action == GLFW_PRESS) me.clicked_ = true;
+    // Where the pointer is now, not where a slow frame finds it later.
+    double x = 0, y = 0;
+    glfwGetCursorPos(window, &x, &y);
+    const Vec2 panel = me.state_.panel ? me.state_.panel_size : Vec2(0.0f);
+    const bool on_panel = x < double(panel.x) && y < double(panel.y);
+    if (action == GLFW_PRESS && !on_panel) me.clicked_ = true;
 }
 
 void WalkWindow::on_cursor(GLFWwindow* window, double x, double y) {
@@ -173,7 +178,7 @@ void WalkWindow::begin_panel() {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
-    // Only now is it known whether the pointer was over the panel when the button went down.
+    // Dear ImGui knows by now whether the click was meant for a menu or the help page.
     if (std::exchange(clicked_, false) && !captured_ && !ImGui::GetIO().WantCaptureMouse) capture(true);
 }
 

@@ -105,18 +105,6 @@ def until(what, condition):
     sys.exit(f"walk: waited in vain for {what}")
 
 
-def still(what):
-    """The picture once it stays the same for a while."""
-    last = [screen()]
-
-    def same():
-        time.sleep(0.5)
-        now = screen()
-        unchanged, last[0] = now == last[0], now
-        return now if unchanged else None
-    return until(f"a still picture {what}", same)
-
-
 # ---- the window --------------------------------------------------------------------------------------------------
 
 def xdotool(*arguments):
@@ -147,6 +135,20 @@ class Walk:
         self.out.seek(0)
         return self.out.read()
 
+    def place(self):
+        """Where the camera is, as B prints it; all earlier events have been handled by then."""
+        before = self.output().count("\nplace ")
+        xdotool("key", "b")
+        until("B to print the place", lambda: self.output().count("\nplace ") > before)
+        return self.output().rsplit("\nplace ", 1)[1].split(": ", 1)[1].strip()
+
+    def still(self):
+        """The picture once the camera rests: asked for twice, so that the frame of the first answer is on the screen."""
+        until("the camera to rest", lambda: self.place() == self.place())
+        self.place()
+        time.sleep(0.2)
+        return screen()
+
     def ends(self):
         try:
             return self.process.wait(PATIENCE)
@@ -175,14 +177,14 @@ def main():
     write_level(folder / "level.gltf")
 
     walk = Walk(daylit, folder)
-    first = still("at the start")
+    first = walk.still()
     check("12:00" in walk.title(), f"the title tells the hour ({walk.title()})")
     check("no baked light" in walk.output(), "says that there is no baked light")
     check(red_share(first) > 0.005, "shows the box")
 
     xdotool("key", "F1")
     until("the help page", lambda: screen() != first)
-    check(brightness(still("with help")) < 0.9 * brightness(first), "F1 shows the help page")
+    check(brightness(walk.still()) < 0.9 * brightness(first), "F1 shows the help page")
     xdotool("key", "F1")
     until("the picture without help", lambda: screen() == first)
     check(True, "F1 takes it away again")
@@ -190,14 +192,14 @@ def main():
     xdotool("keydown", "w")
     until("the box to grow", lambda: red_share(screen()) > 2 * red_share(first))
     check(True, "W walks ahead")
-    # 4.7 m to go; at the box the picture stays still though the key is held.
-    stopped = still("at the box, W held")
+    # 4.7 m to go; at the box the camera rests though the key is held.
+    stopped = walk.still()
     xdotool("keyup", "w")
-    check(still("at the box") == stopped, "the box stops the walker")
+    check(walk.still() == stopped, "the box stops the walker")
     check(0.3 < red_share(stopped) < 1, "in front of it, not inside")
 
     xdotool("key", "2")
-    aside = until("the second camera", lambda: (p := still("at camera 2")) != stopped and p)
+    aside = until("the second camera", lambda: (p := walk.still()) != stopped and p)
     check(red_share(aside) < red_share(stopped), "2 goes to the second camera")
     xdotool("key", "1")
     until("the first camera", lambda: screen() == first)
@@ -205,14 +207,14 @@ def main():
 
     xdotool("mousemove", WIDTH - 100, HEIGHT // 2, "click", 1)
     xdotool("mousemove_relative", "--sync", "--", -60, 0)
-    until("the view to turn", lambda: screen() != first)
-    turned = still("after turning")
+    until("the view to turn", lambda: walk.still() != first)
+    turned = walk.still()
     check(red_share(turned) > 0.9 * red_share(first), "a click captures the mouse, moving it turns the view")
     xdotool("key", "Escape")
-    time.sleep(0.5)
+    walk.place()
     check(walk.process.poll() is None, "Esc frees the mouse")
     xdotool("mousemove_relative", "--sync", "--", 30, 0)
-    check(difference(still("with a free mouse"), turned) < 0.01, "the free mouse turns nothing")
+    check(difference(walk.still(), turned) < 0.01, "the free mouse turns nothing")
 
     xdotool("key", "F12")
     saved = until("the picture file", lambda: picture_files(folder))
@@ -232,9 +234,10 @@ def main():
     xdotool("key", "p")
     until("time to pass", lambda: walk.title() != before)
     xdotool("key", "p")
-    time.sleep(1)
+    walk.still()
     paused = walk.title()
     time.sleep(1)
+    walk.still()
     check(walk.title() == paused, "P lets the day go by and stops it")
 
     xdotool("key", "r")
