@@ -50,9 +50,8 @@ nlohmann::json describe(const LoadedScene& loaded) {
     for (const Camera& camera : scene.cameras) out["cameras"].push_back(camera.name);
     out["animations"] = nlohmann::json::array();
     for (const Animation& animation : scene.animations)
-        out["animations"].push_back({{"name", animation.name},
-                                     {"seconds", animation.duration},
-                                     {"channels", animation.channels.size()}});
+        out["animations"].push_back(
+            {{"name", animation.name}, {"seconds", animation.duration}, {"channels", animation.channels.size()}});
     out["plan"] = nlohmann::json::array();
     for (const PlanItem& item : plan_parts(facts))
         out["plan"].push_back({{"part", item.part}, {"needed", item.done}, {"why", item.why}});
@@ -71,27 +70,32 @@ void print_counts(const nlohmann::json& facts) {
 }
 
 void print(const nlohmann::json& facts) {
-    std::printf("%s loads; %g m a unit\n", facts["scene"].get<std::string>().c_str(), facts["metres_per_unit"].get<double>());
+    std::printf("%s loads; %g m a unit\n", facts["scene"].get<std::string>().c_str(),
+                facts["metres_per_unit"].get<double>());
     print_counts(facts);
     if (!facts["bounds"].is_null()) {
-        const auto edge = [&](const char* end, int axis) { return facts["bounds"][end][std::size_t(axis)].get<double>(); };
+        const auto edge = [&](const char* end, int axis) {
+            return facts["bounds"][end][std::size_t(axis)].get<double>();
+        };
         std::printf("  %-20s %g to %g, %g to %g, %g to %g m\n", "bounds x, y, z", edge("min", 0), edge("max", 0),
                     edge("min", 1), edge("max", 1), edge("min", 2), edge("max", 2));
     }
-    for (const auto& camera : facts["cameras"]) std::printf("  %-20s %s\n", "camera", camera.get<std::string>().c_str());
+    for (const auto& camera : facts["cameras"])
+        std::printf("  %-20s %s\n", "camera", camera.get<std::string>().c_str());
     for (const auto& animation : facts["animations"])
         std::printf("  %-20s %s, %g s\n", "animation", animation["name"].get<std::string>().c_str(),
                     animation["seconds"].get<double>());
     for (const auto& item : facts["plan"])
-        std::printf("%s %-12s %s\n", item["needed"].get<bool>() ? "bake" : "skip", item["part"].get<std::string>().c_str(),
-                    item["why"].get<std::string>().c_str());
+        std::printf("%s %-12s %s\n", item["needed"].get<bool>() ? "bake" : "skip",
+                    item["part"].get<std::string>().c_str(), item["why"].get<std::string>().c_str());
     for (const auto& note : facts["notes"]) std::printf("note: %s\n", note.get<std::string>().c_str());
 }
 
 }  // namespace
 
 void add_check(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("check", "Does SCENE load, what daylit would do with it, what it would ignore");
+    CLI::App* command =
+        app.add_subcommand("check", "Does SCENE load, what daylit would do with it, what it would ignore");
     auto options = std::make_shared<CheckOptions>();
     add_scene_options(*command, options->scene);
     command->add_flag("--json", options->json, "everything as JSON on stdout");

@@ -20,16 +20,22 @@ PlanItem for_dynamic(const char* part, const SceneFacts& facts) {
 }
 
 PlanItem dirmap(const SceneFacts& facts) {
-    const std::string largest = "largest Phong exponent of a static surface is " + std::to_string(int(facts.static_exponent));
+    const std::string largest =
+        "largest Phong exponent of a static surface is " + std::to_string(int(facts.static_exponent));
     if (facts.static_exponent <= kDirmapExponent)
-        return {"dirmap", false, "no material is glossy enough: " + largest + ", a cell's width is " +
-                                     std::to_string(int(kDirmapExponent))};
-    return {"dirmap", true, largest + (facts.glossiest_material.empty() ? "" : ", of '" + facts.glossiest_material + "'")};
+        return {
+            "dirmap", false,
+            "no material is glossy enough: " + largest + ", a cell's width is " + std::to_string(int(kDirmapExponent))};
+    return {"dirmap", true,
+            largest + (facts.glossiest_material.empty() ? "" : ", of '" + facts.glossiest_material + "'")};
 }
 
 PlanItem caustics(const SceneFacts& facts) {
     if (!facts.has_glass && !facts.has_mirror) return {"caustics", false, "no glass and no mirror"};
-    return {"caustics", true, facts.has_glass && facts.has_mirror ? "glass and mirrors" : facts.has_glass ? "glass" : "mirrors"};
+    return {"caustics", true,
+            facts.has_glass && facts.has_mirror ? "glass and mirrors"
+            : facts.has_glass                   ? "glass"
+                                                : "mirrors"};
 }
 
 }  // namespace

@@ -45,7 +45,8 @@ void require_writable_place(const fs::path& path) {
     if (fs::exists(status) && !fs::is_regular_file(status))
         throw Error(path.string(), "exists and is not a regular file; choose another name");
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    if (!fs::is_directory(folder, code)) throw Error(path.string(), "the folder " + folder.string() + " does not exist");
+    if (!fs::is_directory(folder, code))
+        throw Error(path.string(), "the folder " + folder.string() + " does not exist");
 }
 
 }  // namespace
@@ -58,8 +59,8 @@ std::vector<std::uint8_t> read_file(const fs::path& path, std::size_t limit) {
     const std::uintmax_t size = fs::file_size(path, code);
     if (code) throw Error(path.string(), "cannot be read: " + code.message());
     if (size > limit)
-        throw Error(path.string(), "is " + std::to_string(size) + " bytes long; at most " + std::to_string(limit) +
-                                       " are accepted");
+        throw Error(path.string(),
+                    "is " + std::to_string(size) + " bytes long; at most " + std::to_string(limit) + " are accepted");
     std::ifstream stream(path, std::ios::binary);
     if (!stream) throw Error(path.string(), std::string("cannot be read: ") + std::strerror(errno));
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));

@@ -10,6 +10,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/png_check.h"
+#include "engine/base/text.h"
 
 namespace daylit {
 namespace {
@@ -27,9 +28,14 @@ std::string format_of(std::span<const std::uint8_t> bytes) {
         const char* format;
     };
     using namespace std::string_view_literals;
-    constexpr Magic kMagics[] = {{"\x89PNG\r\n\x1a\n"sv, "png"}, {"\xff\xd8\xff"sv, "jpeg"}, {"\x76\x2f\x31\x01"sv, "openexr"},
-                                 {"#?"sv, "hdr"},                {"PF"sv, "pnm"},            {"Pf"sv, "pnm"},
-                                 {"II*\0"sv, "tiff"},            {"MM\0*"sv, "tiff"}};
+    constexpr Magic kMagics[] = {{"\x89PNG\r\n\x1a\n"sv, "png"},
+                                 {"\xff\xd8\xff"sv, "jpeg"},
+                                 {"\x76\x2f\x31\x01"sv, "openexr"},
+                                 {"#?"sv, "hdr"},
+                                 {"PF"sv, "pnm"},
+                                 {"Pf"sv, "pnm"},
+                                 {"II*\0"sv, "tiff"},
+                                 {"MM\0*"sv, "tiff"}};
     const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 16));
     for (const Magic& magic : kMagics)
         if (head.starts_with(magic.bytes)) return magic.format;
@@ -37,12 +43,9 @@ std::string format_of(std::span<const std::uint8_t> bytes) {
     return {};
 }
 
-/// OpenImageIO's messages may hold several lines and quote the file's bytes; ours are one line of print.
-std::string one_line(std::string text) {
-    for (char& c : text)
-        if (c < ' ' || c > '~') c = ' ';
-    while (!text.empty() && text.back() == ' ') text.pop_back();
-    return text.empty() ? "damaged" : text;
+std::string said_by(const OIIO::ImageInput& input) {
+    const std::string message = one_line(input.geterror());
+    return message.empty() ? "is damaged" : message;
 }
 
 void check_declared_size(const OIIO::ImageSpec& spec, std::size_t file_bytes, const std::string& name) {
@@ -87,13 +90,14 @@ OpenImage open_image(std::span<const std::uint8_t> bytes, const std::string& nam
     config.attribute("oiio:UnassociatedAlpha", 1);
     std::string opened = path;
     if (image.input->supports("ioproxy")) {
-        image.memory = std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<std::uint8_t*>(bytes.data()), bytes.size());
+        image.memory =
+            std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<std::uint8_t*>(bytes.data()), bytes.size());
         image.input->set_ioproxy(image.memory.get());
         opened = "memory." + format;
     } else if (path.empty()) {
         throw Error(name, "OpenImageIO cannot read " + format + " from memory; use PNG or JPEG");
     }
-    if (!image.input->open(opened, image.spec, config)) throw Error(name, one_line(image.input->geterror()));
+    if (!image.input->open(opened, image.spec, config)) throw Error(name, said_by(*image.input));
     check_declared_size(image.spec, bytes.size(), name);
     return image;
 }
@@ -131,8 +135,7 @@ bool is_srgb_coded(const OIIO::ImageSpec& spec) {
 template <typename T>
 std::vector<T> read_pixels(OpenImage& image, OIIO::TypeDesc type, int channels, const std::string& name) {
     std::vector<T> values(std::size_t(image.spec.width) * std::size_t(image.spec.height) * std::size_t(channels));
-    if (!image.input->read_image(0, 0, 0, channels, type, values.data()))
-        throw Error(name, one_line(image.input->geterror()));
+    if (!image.input->read_image(0, 0, 0, channels, type, values.data())) throw Error(name, said_by(*image.input));
     return values;
 }
 

@@ -7,7 +7,7 @@
 namespace daylit {
 
 struct LoadOptions {
-    double unit = 0.0;  // metres per file unit; 0: extras.daylit.unit, else 1
+    double unit = 0.0;     // metres per file unit; 0: extras.daylit.unit, else 1
     bool lambert = false;  // --materials lambert: base colour and emission only
 };
 

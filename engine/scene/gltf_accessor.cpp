@@ -23,12 +23,16 @@ struct Elements {
 std::size_t component_size(int type) {
     switch (type) {
         case TINYGLTF_COMPONENT_TYPE_BYTE:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return 1;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return 1;
         case TINYGLTF_COMPONENT_TYPE_SHORT:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return 2;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return 2;
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        case TINYGLTF_COMPONENT_TYPE_FLOAT: return 4;
-        default: return 0;
+        case TINYGLTF_COMPONENT_TYPE_FLOAT:
+            return 4;
+        default:
+            return 0;
     }
 }
 
@@ -64,8 +68,7 @@ Elements locate(const File& file, int view_index, std::size_t offset, std::size_
     if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
         file.fail(where, "reaches beyond the " + std::to_string(data.size()) + " bytes of its buffer");
     const std::size_t stride = may_stride && view.byteStride != 0 ? view.byteStride : size;
-    if (stride < size)
-        file.fail(where, "has a stride of " + std::to_string(stride) + " bytes, less than one element");
+    if (stride < size) file.fail(where, "has a stride of " + std::to_string(stride) + " bytes, less than one element");
     if (offset > view.byteLength) file.fail(place, "starts beyond the end of bufferView " + std::to_string(view_index));
     const std::size_t room = view.byteLength - offset;
     if (count > 0 && (room < size || (room - size) / stride < count - 1))
@@ -85,9 +88,12 @@ T load(const std::uint8_t* bytes) {
 
 std::uint32_t load_unsigned(int type, const std::uint8_t* bytes) {
     switch (type) {
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return *bytes;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return load<std::uint16_t>(bytes);
-        default: return load<std::uint32_t>(bytes);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return *bytes;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return load<std::uint16_t>(bytes);
+        default:
+            return load<std::uint32_t>(bytes);
     }
 }
 
@@ -105,12 +111,18 @@ float to_float(T value, bool normalized) {
 float load_float(const AccessorShape& shape, const std::uint8_t* bytes) {
     const auto as = [&](auto type) { return to_float(load<decltype(type)>(bytes), shape.normalized); };
     switch (shape.component_type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE: return as(std::int8_t());
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return as(std::uint8_t());
-        case TINYGLTF_COMPONENT_TYPE_SHORT: return as(std::int16_t());
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return as(std::uint16_t());
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return as(std::uint32_t());
-        default: return as(float());
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+            return as(std::int8_t());
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return as(std::uint8_t());
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+            return as(std::int16_t());
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return as(std::uint16_t());
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+            return as(std::uint32_t());
+        default:
+            return as(float());
     }
 }
 
@@ -138,23 +150,25 @@ Sparse sparse_part(const File& file, const tinygltf::Accessor& accessor, const A
     const auto& sparse = accessor.sparse;
     const std::string where = place + " sparse part";
     if (sparse.count < 1 || std::size_t(sparse.count) > shape.count)
-        file.fail(where, "replaces " + std::to_string(sparse.count) + " of " + std::to_string(shape.count) + " elements");
+        file.fail(where,
+                  "replaces " + std::to_string(sparse.count) + " of " + std::to_string(shape.count) + " elements");
     if (sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0) file.fail(where, "has a negative offset");
     const int type = sparse.indices.componentType;
     if (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
         type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
         file.fail(where, "has indices that are not unsigned integers");
     const std::size_t count = std::size_t(sparse.count), size = component_size(type);
-    const Elements indices = locate(file, sparse.indices.bufferView, std::size_t(sparse.indices.byteOffset), count, size,
-                                    size, false, where + " indices");
+    const Elements indices = locate(file, sparse.indices.bufferView, std::size_t(sparse.indices.byteOffset), count,
+                                    size, size, false, where + " indices");
     Sparse part;
-    part.values = locate(file, sparse.values.bufferView, std::size_t(sparse.values.byteOffset), count,
-                         element_size(shape, accessor.type), component_size(shape.component_type), false,
-                         where + " values");
+    part.values =
+        locate(file, sparse.values.bufferView, std::size_t(sparse.values.byteOffset), count,
+               element_size(shape, accessor.type), component_size(shape.component_type), false, where + " values");
     part.indices.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t index = load_unsigned(type, indices.base + i * indices.stride);
-        if (index >= shape.count) file.fail(where, "replaces element " + std::to_string(index) + ", which does not exist");
+        if (index >= shape.count)
+            file.fail(where, "replaces element " + std::to_string(index) + ", which does not exist");
         if (!part.indices.empty() && index <= part.indices.back()) file.fail(where, "has indices that do not ascend");
         part.indices.push_back(index);
     }

@@ -19,7 +19,8 @@ std::optional<AnimationPath> animation_path(const std::string& name) {
 Interpolation interpolation(File& file, const std::string& name, const std::string& where) {
     if (name == "STEP") return Interpolation::Step;
     if (name == "CUBICSPLINE") return Interpolation::CubicSpline;
-    if (name != "LINEAR" && !name.empty()) file.note(where, "has the unknown interpolation '" + name + "'; LINEAR is taken");
+    if (name != "LINEAR" && !name.empty())
+        file.note(where, "has the unknown interpolation '" + name + "'; LINEAR is taken");
     return Interpolation::Linear;
 }
 
@@ -31,12 +32,14 @@ struct KeyShape {
 
 KeyShape key_shape(const Scene& scene, const AnimationChannel& channel) {
     switch (channel.path) {
-        case AnimationPath::Rotation: return {4, 1};
+        case AnimationPath::Rotation:
+            return {4, 1};
         case AnimationPath::Weights: {
             const int mesh = scene.nodes[std::size_t(channel.node)].mesh;
             return {1, mesh == -1 ? 0 : scene.meshes[std::size_t(mesh)].morph_weights.size()};
         }
-        default: return {3, 1};
+        default:
+            return {3, 1};
     }
 }
 
@@ -61,7 +64,8 @@ std::vector<float> read_keys(File& file, const Scene& scene, const AnimationChan
     const std::size_t per_key = key.elements * (channel.interpolation == Interpolation::CubicSpline ? 3 : 1);
     if (shape.components != key.components) file.fail(where, "has the wrong type for what it animates");
     if (shape.count != channel.times.size() * per_key)
-        file.fail(where, "has " + std::to_string(shape.count) + " elements for " + std::to_string(channel.times.size()) + " times");
+        file.fail(where, "has " + std::to_string(shape.count) + " elements for " +
+                             std::to_string(channel.times.size()) + " times");
     return read_floats(file, output, where);
 }
 
@@ -119,8 +123,10 @@ void read_animations(File& file, Scene& scene) {
             check_accessor(file, in.samplers[s].input, where + " sampler " + std::to_string(s) + " input");
             check_accessor(file, in.samplers[s].output, where + " sampler " + std::to_string(s) + " output");
         }
-        if (animation.channels.empty()) file.note(where, "has no channel that can be played; dropped");
-        else scene.animations.push_back(std::move(animation));
+        if (animation.channels.empty())
+            file.note(where, "has no channel that can be played; dropped");
+        else
+            scene.animations.push_back(std::move(animation));
     }
 }
 

@@ -31,7 +31,8 @@ std::string_view json_of_glb(std::span<const std::uint8_t> bytes, File& file) {
         file.fail("GLB", "is of version " + std::to_string(version) + "; only 2 is read, convert it");
     const std::size_t length = little_endian(bytes, 8);
     if (length != bytes.size())
-        file.fail("GLB", "says that it is " + std::to_string(length) + " bytes long and is " + std::to_string(bytes.size()));
+        file.fail("GLB",
+                  "says that it is " + std::to_string(length) + " bytes long and is " + std::to_string(bytes.size()));
     std::string_view json;
     std::size_t at = kHeaderBytes;
     for (int chunk = 0; at < length; ++chunk) {
@@ -74,7 +75,19 @@ void check_extent(std::string_view json, const File& file) {
     }
 }
 
-enum class Type { Boolean, Number, Natural, String, Object, Objects, Numbers, Naturals, Strings, NaturalMap, NaturalMaps };
+enum class Type {
+    Boolean,
+    Number,
+    Natural,
+    String,
+    Object,
+    Objects,
+    Numbers,
+    Naturals,
+    Strings,
+    NaturalMap,
+    NaturalMaps
+};
 
 /// One property of one kind of object; `child` is the kind of object that it holds.
 struct Rule {
@@ -218,17 +231,28 @@ bool is_natural_map(const Json& value) {
 std::string_view mismatch(const Json& value, Type type) {
     const auto unless = [](bool fits, std::string_view what) { return fits ? std::string_view() : what; };
     switch (type) {
-        case Type::Boolean: return unless(value.is_boolean(), "true or false");
-        case Type::Number: return unless(value.is_number(), "a number");
-        case Type::Natural: return unless(is_natural(value), "an integer from 0 up");
-        case Type::String: return unless(value.is_string(), "a string");
-        case Type::Object: return unless(value.is_object(), "an object");
-        case Type::Objects: return unless(all_of(value, [](const Json& v) { return v.is_object(); }), "an array of objects");
-        case Type::Numbers: return unless(all_of(value, [](const Json& v) { return v.is_number(); }), "an array of numbers");
-        case Type::Naturals: return unless(all_of(value, is_natural), "an array of integers from 0 up");
-        case Type::Strings: return unless(all_of(value, [](const Json& v) { return v.is_string(); }), "an array of strings");
-        case Type::NaturalMap: return unless(is_natural_map(value), "an object of integers from 0 up");
-        case Type::NaturalMaps: return unless(all_of(value, is_natural_map), "an array of objects of integers from 0 up");
+        case Type::Boolean:
+            return unless(value.is_boolean(), "true or false");
+        case Type::Number:
+            return unless(value.is_number(), "a number");
+        case Type::Natural:
+            return unless(is_natural(value), "an integer from 0 up");
+        case Type::String:
+            return unless(value.is_string(), "a string");
+        case Type::Object:
+            return unless(value.is_object(), "an object");
+        case Type::Objects:
+            return unless(all_of(value, [](const Json& v) { return v.is_object(); }), "an array of objects");
+        case Type::Numbers:
+            return unless(all_of(value, [](const Json& v) { return v.is_number(); }), "an array of numbers");
+        case Type::Naturals:
+            return unless(all_of(value, is_natural), "an array of integers from 0 up");
+        case Type::Strings:
+            return unless(all_of(value, [](const Json& v) { return v.is_string(); }), "an array of strings");
+        case Type::NaturalMap:
+            return unless(is_natural_map(value), "an object of integers from 0 up");
+        case Type::NaturalMaps:
+            return unless(all_of(value, is_natural_map), "an array of objects of integers from 0 up");
     }
     return {};
 }
@@ -290,11 +314,13 @@ void check_views(const Json& root, File& file) {
         const std::string where = place("bufferView", i);
         const std::uint64_t buffer = natural(view, "buffer"), offset = natural(view, "byteOffset");
         const std::uint64_t length = natural(view, "byteLength"), stride = natural(view, "byteStride");
-        if (buffer >= buffers.size()) file.fail(where, "refers to buffer " + std::to_string(buffer) + ", which does not exist");
+        if (buffer >= buffers.size())
+            file.fail(where, "refers to buffer " + std::to_string(buffer) + ", which does not exist");
         const std::uint64_t size = natural(buffers[buffer], "byteLength");
         if (length == 0) file.fail(where, "is empty");
         if (offset > size || length > size - offset)
-            file.fail(where, "reaches beyond the " + std::to_string(size) + " bytes of buffer " + std::to_string(buffer));
+            file.fail(where,
+                      "reaches beyond the " + std::to_string(size) + " bytes of buffer " + std::to_string(buffer));
         if (stride > length) file.note(where, "has a stride longer than itself");
     }
 }
@@ -303,14 +329,15 @@ void check_required_extensions(const Json& root, const File& file) {
     if (!root.contains("extensionsRequired")) return;
     for (const Json& name : root["extensionsRequired"])
         if (!is_supported(name.get<std::string>()))
-            file.fail("extension " + name.get<std::string>(), "is required by the file and not supported; export without it");
+            file.fail("extension " + name.get<std::string>(),
+                      "is required by the file and not supported; export without it");
 }
 
 void check_version(const Json& root, File& file) {
     const auto text = [&](const char* key) -> std::string {
         if (!root.contains("asset") || !root["asset"].is_object() || !root["asset"].contains(key)) return {};
         const Json& value = root["asset"][key];
-        return value.is_string() ? one_line(value.get<std::string>()) : std::string();
+        return value.is_string() ? value.get<std::string>() : std::string();
     };
     const std::string version = text("version"), least = text("minVersion");
     if (!version.empty() && !version.starts_with("2."))
@@ -324,7 +351,7 @@ Json parsed(std::string_view json, const File& file) {
         if (!root.is_object()) file.fail("JSON", "is not an object");
         return root;
     } catch (const Json::exception& exception) {
-        file.fail("JSON", std::string("is broken: ") + one_line(exception.what()));
+        file.fail("JSON", std::string("is broken: ") + exception.what());
     }
 }
 

@@ -45,8 +45,8 @@ bool read_whole_file(std::vector<unsigned char>* out, std::string* error, const 
     }
 }
 
-bool keep_image_bytes(tinygltf::Image*, const int index, std::string*, std::string*, int, int, const unsigned char* bytes,
-                      int size, void* images) {
+bool keep_image_bytes(tinygltf::Image*, const int index, std::string*, std::string*, int, int,
+                      const unsigned char* bytes, int size, void* images) {
     auto& kept = *static_cast<std::vector<std::vector<std::uint8_t>>*>(images);
     if (kept.size() <= std::size_t(index)) kept.resize(std::size_t(index) + 1);
     if (size > 0) kept[std::size_t(index)].assign(bytes, bytes + size);
@@ -58,22 +58,13 @@ void note_ignored_extensions(File& file) {
     std::sort(named.begin(), named.end());
     named.erase(std::unique(named.begin(), named.end()), named.end());
     for (const std::string& extension : named)
-        if (!is_supported(extension)) file.note("extension " + one_line(extension), "is optional and ignored");
+        if (!is_supported(extension)) file.note("extension " + extension, "is optional and ignored");
 }
 
 }  // namespace
 
 bool is_supported(const std::string& extension) {
     return std::any_of(kSupported.begin(), kSupported.end(), [&](const char* name) { return extension == name; });
-}
-
-std::string one_line(std::string text) {
-    while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 32) c = ' ';
-    constexpr std::size_t kLongest = 300;
-    if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
-    return text;
 }
 
 float File::number(double value, const std::string& where) const {
@@ -88,7 +79,7 @@ bool File::uses(const std::string& extension) const {
 
 std::string place(const char* kind, std::size_t index, const std::string& name) {
     std::string text = std::string(kind) + " " + std::to_string(index);
-    return name.empty() ? text : text + " '" + one_line(name) + "'";
+    return name.empty() ? text : text + " '" + name + "'";
 }
 
 File open(const std::filesystem::path& path) {

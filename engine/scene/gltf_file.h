@@ -11,9 +11,16 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 #include "engine/scene/scene.h"
 
 namespace daylit::gltf {
+
+/// A specular-glossiness material whose texture is to become a roughness texture once it is decoded.
+struct GlossyMaterial {
+    std::size_t material;
+    float glossiness;  // factor of the texture's alpha
+};
 
 struct File {
     std::filesystem::path path;
@@ -22,14 +29,17 @@ struct File {
     float unit = 1.0f;                                   // metres per file unit
     bool lambert = false;
     std::vector<std::string> notes;
+    std::vector<GlossyMaterial> glossy;
     std::vector<bool> used_accessors;  // that check_accessor has seen
-    std::uint64_t decoded_bytes = 0;  // charged so far
-    std::uint64_t buffer_bytes = 0;   // of all buffers together
+    std::uint64_t decoded_bytes = 0;   // charged so far
+    std::uint64_t buffer_bytes = 0;    // of all buffers together
 
     [[noreturn]] void fail(const std::string& place, const std::string& message) const {
-        throw Error(path.string(), place + " " + message);
+        throw Error(path.string(), one_line(place + " " + message));
     }
-    void note(const std::string& place, const std::string& message) { notes.push_back(place + " " + message); }
+    void note(const std::string& place, const std::string& message) {
+        notes.push_back(one_line(place + " " + message));
+    }
 
     /// Counts memory about to be taken for decoded data; fails when it is out of proportion to the file.
     void charge(std::uint64_t bytes, const std::string& place);
@@ -40,9 +50,6 @@ struct File {
 
 /// "node 3 'door'", for messages.
 std::string place(const char* kind, std::size_t index, const std::string& name = {});
-
-/// Control characters and length tamed: what others' messages and a stranger's names need.
-std::string one_line(std::string text);
 
 template <typename T>
 bool in_range(int index, const std::vector<T>& vector) {

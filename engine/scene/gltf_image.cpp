@@ -34,10 +34,15 @@ int source_image(File& file, const tinygltf::Texture& texture, const std::string
 
 Wrap wrap(File& file, int mode, const std::string& place) {
     switch (mode) {
-        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE: return Wrap::Clamp;
-        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT: return Wrap::Mirror;
-        case TINYGLTF_TEXTURE_WRAP_REPEAT: return Wrap::Repeat;
-        default: file.note(place, "has an unknown wrap mode; it repeats"); return Wrap::Repeat;
+        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+            return Wrap::Clamp;
+        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+            return Wrap::Mirror;
+        case TINYGLTF_TEXTURE_WRAP_REPEAT:
+            return Wrap::Repeat;
+        default:
+            file.note(place, "has an unknown wrap mode; it repeats");
+            return Wrap::Repeat;
     }
 }
 
@@ -56,7 +61,7 @@ Texture read_texture(File& file, const tinygltf::Texture& in, const std::string&
 
 std::string image_name(const File& file, std::size_t index) {
     const tinygltf::Image& image = file.model.images[index];
-    return image.uri.empty() ? place("image", index, image.name) : "image " + std::to_string(index) + " '" + image.uri + "'";
+    return one_line(place("image", index, image.uri.empty() ? image.name : image.uri));
 }
 
 /// Keeps the used textures and images only, in the file's order, and renumbers the references to them.
@@ -96,6 +101,33 @@ void note_unused_images(File& file, const std::vector<int>& used) {
             file.note(image_name(file, i), "is used by no material; not read");
 }
 
+/// Glossiness in alpha becomes roughness in green; of the coloured part the mean goes into the factor, since a material
+/// here has one specular colour.
+void convert_glossy(Scene& scene, const GlossyMaterial& glossy) {
+    Material& material = scene.materials[glossy.material];
+    TextureRef& ref = material.metallic_roughness_texture;
+    if (ref.texture < 0) {
+        material.roughness = 1.0f - glossy.glossiness;
+        return;
+    }
+    Texture texture = scene.textures[std::size_t(ref.texture)];
+    Image8 image = scene.images[std::size_t(texture.image)];
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+        std::uint8_t* texel = &image.rgba[i];
+        for (int c = 0; c < 3; ++c) sum[c] += decode_srgb(float(texel[c]) / 255.0f);
+        texel[1] = std::uint8_t(255.5f - glossy.glossiness * float(texel[3]));
+        texel[0] = texel[2] = 0;
+        texel[3] = 255;
+    }
+    material.specular_color *= Rgb(sum / double(image.rgba.size() / 4));
+    scene.image_names.push_back("roughness of " + scene.image_names[std::size_t(texture.image)]);
+    texture.image = int(scene.images.size());
+    scene.images.push_back(std::move(image));
+    ref.texture = int(scene.textures.size());
+    scene.textures.push_back(texture);
+}
+
 }  // namespace
 
 void read_textures(File& file, Scene& scene) {
@@ -116,6 +148,7 @@ void read_textures(File& file, Scene& scene) {
     tbb::parallel_for(std::size_t(0), used.size(), [&](std::size_t i) {
         scene.images[i] = read_image8(bytes(i), file.path.string() + ": " + scene.image_names[i]);
     });
+    for (const GlossyMaterial& glossy : file.glossy) convert_glossy(scene, glossy);
 }
 
 }  // namespace daylit::gltf

@@ -31,7 +31,8 @@ class Extension {
         if (!has(key)) return otherwise;
         const Value& array = value_->Get(key);
         const std::string where = place_ + " " + key;
-        if (!array.IsArray() || array.ArrayLen() != std::size_t(N)) file_.fail(where, "must be an array of " + std::to_string(N));
+        if (!array.IsArray() || array.ArrayLen() != std::size_t(N))
+            file_.fail(where, "must be an array of " + std::to_string(N));
         for (int i = 0; i < N; ++i) {
             if (!array.Get(i).IsNumber()) file_.fail(where, "must hold numbers");
             otherwise[i] = file_.number(array.Get(i).GetNumberAsDouble(), where);
@@ -117,7 +118,8 @@ constexpr float kAny = 3.0e38f;
 AlphaMode alpha_mode(File& file, const std::string& mode, const std::string& place) {
     if (mode == "MASK") return AlphaMode::Mask;
     if (mode == "BLEND") return AlphaMode::Blend;
-    if (mode != "OPAQUE" && !mode.empty()) file.note(place, "has the unknown alphaMode '" + mode + "'; OPAQUE is taken");
+    if (mode != "OPAQUE" && !mode.empty())
+        file.note(place, "has the unknown alphaMode '" + mode + "'; OPAQUE is taken");
     return AlphaMode::Opaque;
 }
 
@@ -125,9 +127,11 @@ void read_specular(File& file, const tinygltf::Material& in, Material& out, cons
     const Extension specular(file, in.extensions, "KHR_materials_specular", at);
     if (!specular) return;
     out.specular = clamped(file, specular.number("specularFactor", 1.0f), 0.0f, 1.0f, at + " specularFactor");
-    out.specular_color = clamped<3>(file, specular.numbers<3>("specularColorFactor", Rgb(1.0f)), kAny, at + " specularColorFactor");
+    out.specular_color =
+        clamped<3>(file, specular.numbers<3>("specularColorFactor", Rgb(1.0f)), kAny, at + " specularColorFactor");
     for (const char* key : {"specularTexture", "specularColorTexture"})
-        if (specular.has(key)) file.note(at, std::string("has a ") + key + ", which is ignored; its factor alone counts");
+        if (specular.has(key))
+            file.note(at, std::string("has a ") + key + ", which is ignored; its factor alone counts");
 }
 
 void read_transmission(File& file, const tinygltf::Material& in, Material& out, const std::string& at) {
@@ -148,19 +152,25 @@ void read_transmission(File& file, const tinygltf::Material& in, Material& out, 
 /// Diffuse and specular colours with glossiness are exactly what a dielectric with a coloured coat gives:
 /// base colour = diffuse, coat f0 = specular (shaders/shared/brdf.h scales the diffuse part by 1 - max f0 as the
 /// extension does). f0 is carried as specular_color over the 0.04 of ior 1.5.
-void read_specular_glossiness(File& file, const tinygltf::Material& in, Material& out, const std::string& at) {
+void read_specular_glossiness(File& file, const tinygltf::Material& in, std::size_t index, Material& out,
+                              const std::string& at) {
     const Extension gloss(file, in.extensions, "KHR_materials_pbrSpecularGlossiness", at);
     if (!gloss) return;
     out.base_color = clamped<4>(file, gloss.numbers<4>("diffuseFactor", Rgba(1.0f)), 1.0f, at + " diffuseFactor");
     out.base_color_texture = texture_ref(file, gloss.texture("diffuseTexture"), at + " diffuseTexture");
     out.metallic = 0.0f;
-    out.roughness = 1.0f - clamped(file, gloss.number("glossinessFactor", 1.0f), 0.0f, 1.0f, at + " glossinessFactor");
-    out.metallic_roughness_texture = TextureRef();
+    const float glossiness =
+        clamped(file, gloss.number("glossinessFactor", 1.0f), 0.0f, 1.0f, at + " glossinessFactor");
+    out.metallic_roughness_texture =
+        texture_ref(file, gloss.texture("specularGlossinessTexture"), at + " specularGlossinessTexture");
+    const bool textured = out.metallic_roughness_texture.texture >= 0 && !file.lambert;
+    out.roughness = textured ? 1.0f : 1.0f - glossiness;
+    if (textured) file.glossy.push_back({index, glossiness});
     out.ior = 1.5f;
     out.specular = 1.0f;
-    out.specular_color = clamped<3>(file, gloss.numbers<3>("specularFactor", Rgb(1.0f)), 1.0f, at + " specularFactor") / 0.04f;
-    if (gloss.has("specularGlossinessTexture"))
-        file.note(at, "has a specularGlossinessTexture, which is ignored; its factors alone count");
+    out.specular_color =
+        clamped<3>(file, gloss.numbers<3>("specularFactor", Rgb(1.0f)), 1.0f, at + " specularFactor") / 0.04f;
+    if (textured) file.note(at, "has a specularGlossinessTexture; its glossiness is kept, its colour averaged");
 }
 
 void read_emission(File& file, const tinygltf::Material& in, Material& out, const std::string& at) {
@@ -182,7 +192,8 @@ void make_lambert(Material& material) {
     material.metallic_roughness_texture = material.normal_texture = material.occlusion_texture = TextureRef();
 }
 
-Material read_material(File& file, const tinygltf::Material& in, const std::string& at) {
+Material read_material(File& file, const tinygltf::Material& in, std::size_t index) {
+    const std::string at = place("material", index, in.name);
     Material out;
     out.name = in.name;
     const tinygltf::PbrMetallicRoughness& pbr = in.pbrMetallicRoughness;
@@ -201,7 +212,7 @@ Material read_material(File& file, const tinygltf::Material& in, const std::stri
     read_emission(file, in, out, at);
     read_specular(file, in, out, at);
     read_transmission(file, in, out, at);
-    read_specular_glossiness(file, in, out, at);
+    read_specular_glossiness(file, in, index, out, at);
     if (file.lambert) make_lambert(out);
     return out;
 }
@@ -210,8 +221,7 @@ Material read_material(File& file, const tinygltf::Material& in, const std::stri
 
 void read_materials(File& file, Scene& scene) {
     for (std::size_t i = 0; i < file.model.materials.size(); ++i) {
-        const tinygltf::Material& material = file.model.materials[i];
-        scene.materials.push_back(read_material(file, material, place("material", i, material.name)));
+        scene.materials.push_back(read_material(file, file.model.materials[i], i));
     }
     // The last one is what primitives without a material use; its values are glTF's defaults.
     scene.materials.emplace_back();

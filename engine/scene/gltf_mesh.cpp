@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/base/vec.h"
 #include "engine/scene/gltf_file.h"
 #include "engine/scene/tangents.h"
 
@@ -18,8 +19,8 @@ struct Source {
     File& file;
     const tinygltf::Primitive& in;
     std::string place;
-    std::size_t vertices = 0;         // in the file
-    Indices elements;                 // the file's vertices that are kept, in the order of the result
+    std::size_t vertices = 0;  // in the file
+    Indices elements;          // the file's vertices that are kept, in the order of the result
     int accessor(const std::string& attribute) const {
         const auto found = in.attributes.find(attribute);
         return found == in.attributes.end() ? -1 : found->second;
@@ -30,7 +31,8 @@ bool is_float(const AccessorShape& shape) {
     return shape.component_type == TINYGLTF_COMPONENT_TYPE_FLOAT;
 }
 bool is_signed(const AccessorShape& shape) {
-    return shape.component_type == TINYGLTF_COMPONENT_TYPE_BYTE || shape.component_type == TINYGLTF_COMPONENT_TYPE_SHORT;
+    return shape.component_type == TINYGLTF_COMPONENT_TYPE_BYTE ||
+           shape.component_type == TINYGLTF_COMPONENT_TYPE_SHORT;
 }
 bool is_short_unsigned(const AccessorShape& shape) {
     return shape.component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
@@ -44,12 +46,15 @@ bool allowed(const File& file, const AccessorShape& shape, Format format) {
     if (is_float(shape)) return true;
     const bool quantized = file.uses("KHR_mesh_quantization");
     switch (format) {
-        case Format::Position: return quantized && (is_signed(shape) || is_short_unsigned(shape));
-        case Format::Direction: return quantized && is_signed(shape) && shape.normalized;
+        case Format::Position:
+            return quantized && (is_signed(shape) || is_short_unsigned(shape));
+        case Format::Direction:
+            return quantized && is_signed(shape) && shape.normalized;
         case Format::Uv:
             return is_short_unsigned(shape) ? shape.normalized || quantized : quantized && is_signed(shape);
         case Format::Color:
-        case Format::Weight: return is_short_unsigned(shape) && shape.normalized;
+        case Format::Weight:
+            return is_short_unsigned(shape) && shape.normalized;
     }
     return false;
 }
@@ -75,9 +80,12 @@ std::vector<float> read_attribute(const Source& source, int accessor, Format for
 /// Of its component type; to OpenGL it may mean primitive restart.
 std::uint32_t largest_index(const AccessorShape& shape) {
     switch (shape.component_type) {
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return 0xff;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return 0xffff;
-        default: return 0xffffffff;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return 0xff;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return 0xffff;
+        default:
+            return 0xffffffff;
     }
 }
 
@@ -95,7 +103,8 @@ Indices read_indices(Source& source) {
     Indices indices = read_integers(source.file, source.in.indices, where);
     for (const std::uint32_t index : indices) {
         if (index >= source.vertices)
-            source.file.fail(where, "refer to vertex " + std::to_string(index) + " of " + std::to_string(source.vertices));
+            source.file.fail(where,
+                             "refer to vertex " + std::to_string(index) + " of " + std::to_string(source.vertices));
         if (index == restart) source.file.fail(where, "use the primitive restart value, which glTF forbids");
     }
     return indices;
@@ -106,7 +115,8 @@ Indices triangle_list(Source& source, const Indices& indices) {
     const std::size_t n = indices.size();
     Indices list;
     if (source.in.mode == TINYGLTF_MODE_TRIANGLES) {
-        if (n % 3 != 0) source.file.note(source.place, "has a vertex count that is no multiple of 3; the rest is dropped");
+        if (n % 3 != 0)
+            source.file.note(source.place, "has a vertex count that is no multiple of 3; the rest is dropped");
         list.assign(indices.begin(), indices.begin() + std::ptrdiff_t(n - n % 3));
         return list;
     }
@@ -133,15 +143,10 @@ Indices keep_used(Indices& indices, std::size_t vertices) {
     return used;
 }
 
-Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
-    // In double: squares of very small and very large floats leave a float's range.
-    const glm::dvec3 d(v);
-    const double length = glm::length(d);
-    return length > 1e-30 ? Vec3(d / length) : otherwise;
-}
-
 Vec3 face_normal(const Primitive& primitive, std::size_t triangle) {
-    const auto corner = [&](std::size_t i) { return glm::dvec3(primitive.positions[primitive.indices[3 * triangle + i]]); };
+    const auto corner = [&](std::size_t i) {
+        return glm::dvec3(primitive.positions[primitive.indices[3 * triangle + i]]);
+    };
     const glm::dvec3 n = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
     const double length = glm::length(n);
     return length > 0 ? Vec3(n / length) : Vec3(0, 1, 0);
@@ -198,12 +203,10 @@ void read_colors(const Source& source, Primitive& out) {
     const int accessor = source.accessor("COLOR_0");
     if (accessor < 0) return;
     const std::string where = source.place + " COLOR_0";
-    const std::size_t n =
-        std::size_t(checked_attribute(source, accessor, Format::Color, 3, 4, where).components);
+    const std::size_t n = std::size_t(checked_attribute(source, accessor, Format::Color, 3, 4, where).components);
     const std::vector<float> values = read_floats(source.file, accessor, source.elements, where);
     out.colors.assign(values.size() / n, Rgba(1.0f));
-    for (std::size_t i = 0; i < values.size(); ++i)
-        out.colors[i / n][int(i % n)] = std::clamp(values[i], 0.0f, 1.0f);
+    for (std::size_t i = 0; i < values.size(); ++i) out.colors[i / n][int(i % n)] = std::clamp(values[i], 0.0f, 1.0f);
 }
 
 Vec4 normalized_weights(Vec4 weights) {
@@ -215,8 +218,10 @@ Vec4 normalized_weights(Vec4 weights) {
 void read_skinning(const Source& source, Primitive& out) {
     const int joints = source.accessor("JOINTS_0"), weights = source.accessor("WEIGHTS_0");
     if (joints < 0 && weights < 0) return;
-    if (joints < 0 || weights < 0) return source.file.note(source.place, "has joints without weights or weights without joints; not skinned");
-    if (source.accessor("JOINTS_1") >= 0) source.file.note(source.place, "has more than 4 joints a vertex; the first 4 count");
+    if (joints < 0 || weights < 0)
+        return source.file.note(source.place, "has joints without weights or weights without joints; not skinned");
+    if (source.accessor("JOINTS_1") >= 0)
+        source.file.note(source.place, "has more than 4 joints a vertex; the first 4 count");
     const std::string where = source.place + " JOINTS_0";
     const AccessorShape shape = check_accessor(source.file, joints, where);
     if (shape.components != 4 || !is_short_unsigned(shape) || shape.count != source.vertices)
@@ -332,8 +337,7 @@ bool read_primitive(File& file, const Scene& scene, const tinygltf::Primitive& i
     out.material = material_of(file, scene, in.material, where);
     if (!read_topology(source, out)) return false;
     const Material& material = scene.materials[std::size_t(out.material)];
-    out.positions =
-        grouped<Vec3>(read_attribute(source, source.accessor("POSITION"), Format::Position, 3, "POSITION"));
+    out.positions = grouped<Vec3>(read_attribute(source, source.accessor("POSITION"), Format::Position, 3, "POSITION"));
     for (Vec3& position : out.positions) position *= file.unit;
     read_normals(source, out);
     read_uvs(source, out);
@@ -350,11 +354,13 @@ void even_out_morph_targets(File& file, const tinygltf::Mesh& in, Mesh& mesh, co
     std::size_t most = 0;
     for (const Primitive& primitive : mesh.primitives) most = std::max(most, primitive.morph_targets.size());
     for (Primitive& primitive : mesh.primitives) {
-        if (primitive.morph_targets.size() != most) file.note(where, "has primitives with fewer morph targets than others");
+        if (primitive.morph_targets.size() != most)
+            file.note(where, "has primitives with fewer morph targets than others");
         primitive.morph_targets.resize(most);
     }
     if (!in.weights.empty() && in.weights.size() != most)
-        file.note(where, "has " + std::to_string(in.weights.size()) + " weights for " + std::to_string(most) + " morph targets");
+        file.note(where, "has " + std::to_string(in.weights.size()) + " weights for " + std::to_string(most) +
+                             " morph targets");
     mesh.morph_weights.assign(most, 0.0f);
     for (std::size_t i = 0; i < std::min(most, in.weights.size()); ++i)
         mesh.morph_weights[i] = file.number(in.weights[i], where + " weights");

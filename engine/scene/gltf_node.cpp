@@ -34,8 +34,8 @@ std::optional<Date> read_date(File& file, const Value& extras) {
     Date date;
     char rest = 0;
     const Value& value = extras.Get("date");
-    if (!value.IsString() || std::sscanf(value.Get<std::string>().c_str(), "%d-%d-%d%c", &date.year, &date.month, &date.day,
-                                         &rest) != 3 ||
+    if (!value.IsString() ||
+        std::sscanf(value.Get<std::string>().c_str(), "%d-%d-%d%c", &date.year, &date.month, &date.day, &rest) != 3 ||
         date.month < 1 || date.month > 12 || date.day < 1 || date.day > 31)
         file.fail("extras.daylit.date", "must be \"YYYY-MM-DD\"");
     return date;
@@ -117,7 +117,8 @@ void order_nodes(File& file, Scene& scene) {
     std::vector<int> waiting;
     std::vector<bool> listed(scene.nodes.size(), false);
     for (const int root : root_nodes(file, scene)) {
-        if (!in_range(root, scene.nodes)) file.fail("scene", "lists node " + std::to_string(root) + ", which does not exist");
+        if (!in_range(root, scene.nodes))
+            file.fail("scene", "lists node " + std::to_string(root) + ", which does not exist");
         if (scene.nodes[std::size_t(root)].parent != -1)
             file.fail(place("node", std::size_t(root)), "is listed by the scene but is the child of another node");
         if (listed[std::size_t(root)]) {
@@ -149,7 +150,8 @@ void read_camera(File& file, Scene& scene, int node, int index, const std::strin
     camera.orthographic = in.type == "orthographic";
     const double z_near = camera.orthographic ? in.orthographic.znear : in.perspective.znear;
     const double z_far = camera.orthographic ? in.orthographic.zfar : in.perspective.zfar;
-    if (z_far != 0 && !(z_far > z_near)) file.note(at, "has a far plane before its near plane; it is taken as infinite");
+    if (z_far != 0 && !(z_far > z_near))
+        file.note(at, "has a far plane before its near plane; it is taken as infinite");
     camera.z_far = z_far > z_near ? file.number(z_far * file.unit, at) : 0.0f;
     camera.z_near = std::max(file.number(z_near * file.unit, at), 0.0f);
     if (camera.orthographic) {
@@ -229,7 +231,8 @@ void read_instances(File& file, const tinygltf::Node& in, Node& node, const std:
         if (check_accessor(file, accessor, at).components != components) file.fail(at, "is of the wrong type");
         return read_floats(file, accessor, at);
     };
-    const std::vector<Vec3> translations = grouped<Vec3>(read("TRANSLATION", 3)), scales = grouped<Vec3>(read("SCALE", 3));
+    const std::vector<Vec3> translations = grouped<Vec3>(read("TRANSLATION", 3)),
+                            scales = grouped<Vec3>(read("SCALE", 3));
     const std::vector<Vec4> rotations = grouped<Vec4>(read("ROTATION", 4));
     const std::size_t count = std::max({translations.size(), scales.size(), rotations.size()});
     for (const std::size_t size : {translations.size(), scales.size(), rotations.size()})
@@ -315,7 +318,8 @@ void check_joints(const File& file, const Scene& scene, const Node& node, const 
 /// Dynamic passes down the tree and from joints to what they move.
 void mark_dynamic(Scene& scene) {
     for (const Animation& animation : scene.animations)
-        for (const AnimationChannel& channel : animation.channels) scene.nodes[std::size_t(channel.node)].dynamic = true;
+        for (const AnimationChannel& channel : animation.channels)
+            scene.nodes[std::size_t(channel.node)].dynamic = true;
     const auto pass_down = [&] {
         for (const int node : scene.order)
             if (const int parent = scene.nodes[std::size_t(node)].parent; parent != -1)
@@ -338,7 +342,8 @@ void check_counts(const File& file, const Scene& scene) {
             placed += std::max<std::uint64_t>(primitive.positions.size(), primitive.indices.size()) *
                       std::max<std::uint64_t>(node.instances.size(), 1);
         if (placed > kMaxPlacedVertices)
-            file.fail(place("node", std::size_t(n), node.name), "brings the level beyond 67 million corners of triangles");
+            file.fail(place("node", std::size_t(n), node.name),
+                      "brings the level beyond 67 million corners of triangles");
     }
 }
 
@@ -374,7 +379,8 @@ void note_unused_accessors(File& file) {
     file.used_accessors.resize(file.model.accessors.size(), false);
     const auto unused = std::count(file.used_accessors.begin(), file.used_accessors.end(), false);
     if (unused == 0) return;
-    const auto first = std::find(file.used_accessors.begin(), file.used_accessors.end(), false) - file.used_accessors.begin();
+    const auto first =
+        std::find(file.used_accessors.begin(), file.used_accessors.end(), false) - file.used_accessors.begin();
     file.note("file", "has " + std::to_string(unused) + " accessors of no use (the first is " + std::to_string(first) +
                           "); not read");
 }
@@ -394,7 +400,8 @@ SceneExtras read_extras(File& file) {
         if (!value.IsNumber()) file.fail(where, "must be a number");
         const double x = value.GetNumberAsDouble();
         if (!(x >= low && x <= high))
-            file.fail(where, "is " + std::to_string(x) + ", outside " + std::to_string(low) + " to " + std::to_string(high));
+            file.fail(where,
+                      "is " + std::to_string(x) + ", outside " + std::to_string(low) + " to " + std::to_string(high));
         return x;
     };
     extras.latitude = number("latitude", -90, 90);

@@ -31,7 +31,8 @@ KeyPosition locate_key(const std::vector<float>& times, float time) {
 }
 
 /// Component c of a key; part 0 to 2 is in-tangent, value, out-tangent of a cubic spline.
-float key_value(const AnimationChannel& channel, std::size_t key, std::size_t components, std::size_t c, std::size_t part) {
+float key_value(const AnimationChannel& channel, std::size_t key, std::size_t components, std::size_t c,
+                std::size_t part) {
     if (channel.interpolation != Interpolation::CubicSpline) return channel.values[key * components + c];
     return channel.values[(3 * key + part) * components + c];
 }
@@ -52,7 +53,8 @@ Quat sample_rotation(const AnimationChannel& channel, const KeyPosition& at) {
         const auto c = [&](std::size_t i) { return key_value(channel, key, 4, i, 1); };
         return Quat(c(3), c(0), c(1), c(2));
     };
-    if (channel.interpolation == Interpolation::Linear) return glm::normalize(glm::slerp(stored(at.from), stored(at.to), at.share));
+    if (channel.interpolation == Interpolation::Linear)
+        return glm::normalize(glm::slerp(stored(at.from), stored(at.to), at.share));
     Quat q(interpolate(channel, at, 4, 3), interpolate(channel, at, 4, 0), interpolate(channel, at, 4, 1),
            interpolate(channel, at, 4, 2));
     const float length = glm::length(q);
@@ -65,9 +67,15 @@ void apply_channel(const AnimationChannel& channel, float time, Local& local, st
         return Vec3(interpolate(channel, at, 3, 0), interpolate(channel, at, 3, 1), interpolate(channel, at, 3, 2));
     };
     switch (channel.path) {
-        case AnimationPath::Translation: local.translation = vector(); break;
-        case AnimationPath::Scale: local.scale = vector(); break;
-        case AnimationPath::Rotation: local.rotation = sample_rotation(channel, at); break;
+        case AnimationPath::Translation:
+            local.translation = vector();
+            break;
+        case AnimationPath::Scale:
+            local.scale = vector();
+            break;
+        case AnimationPath::Rotation:
+            local.rotation = sample_rotation(channel, at);
+            break;
         case AnimationPath::Weights:
             for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = interpolate(channel, at, weights.size(), i);
     }
@@ -85,7 +93,8 @@ std::vector<std::vector<float>> rest_weights(const Scene& scene) {
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
         const Node& node = scene.nodes[n];
         if (node.mesh == -1) continue;
-        weights[n] = node.morph_weights.empty() ? scene.meshes[std::size_t(node.mesh)].morph_weights : node.morph_weights;
+        weights[n] =
+            node.morph_weights.empty() ? scene.meshes[std::size_t(node.mesh)].morph_weights : node.morph_weights;
     }
     return weights;
 }
@@ -115,7 +124,8 @@ Pose pose_scene(const Scene& scene, double seconds, std::span<const NodeMove> mo
         const Node& node = scene.nodes[std::size_t(n)];
         const Mat4 parent_from_node = node.matrix ? *node.matrix : matrix_of(locals[std::size_t(n)]);
         Mat4& world = pose.world_from_node[std::size_t(n)];
-        world = node.parent == -1 ? parent_from_node : pose.world_from_node[std::size_t(node.parent)] * parent_from_node;
+        world =
+            node.parent == -1 ? parent_from_node : pose.world_from_node[std::size_t(node.parent)] * parent_from_node;
         // In place, so that what hangs below a moved node goes along.
         for (const NodeMove& move : moves)
             if (move.node == n) world = moved(world, move);

@@ -52,7 +52,8 @@ void count_primitive(const Scene& scene, const std::vector<Gloss>& gloss, const 
     (node.dynamic ? facts.dynamic_triangles : facts.static_triangles) += triangles;
     if (material.emission != Rgb(0.0f)) facts.emissive_triangles += triangles;
     if (material.alpha_mode == AlphaMode::Mask) facts.masked_triangles += triangles;
-    const bool sheer = material.base_color.a < 1.0f || material.base_color_texture.texture >= 0 || !primitive.colors.empty();
+    const bool sheer =
+        material.base_color.a < 1.0f || material.base_color_texture.texture >= 0 || !primitive.colors.empty();
     if (material.alpha_mode == AlphaMode::Blend && sheer) facts.blended_triangles += triangles;
     facts.has_glass |= material.transmission > 0.0f;
     facts.has_mirror |= gloss[m].mirror;

@@ -12,7 +12,8 @@ struct SceneFacts {
     std::size_t directional_lights = 0, point_lights = 0, spot_lights = 0;
     std::size_t emissive_triangles = 0;
     std::size_t masked_triangles = 0, blended_triangles = 0;  // blended: some coverage below 1
-    float static_exponent = 0.0f;   // largest Phong exponent of a static surface whose lobe reflects kVisibleGloss or more
+    float static_exponent =
+        0.0f;  // largest Phong exponent of a static surface whose lobe reflects kVisibleGloss or more
     std::string glossiest_material;  // the one that has it
     bool has_glass = false;          // transmission
     bool has_mirror = false;         // a lobe of kMaxPhongExponent that reflects a quarter or more

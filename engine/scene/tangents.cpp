@@ -79,7 +79,9 @@ void make_tangents(Primitive& primitive, int uv_set) {
             const glm::dvec3 n(primitive.normals[corners[i]]);
             const glm::dvec3 flat = frame.tangent - n * glm::dot(n, frame.tangent);
             const double length = glm::length(flat);
-            if (length > 0) (frame.mirrored ? mirrored : plain)[corners[i]] += flat * (corner_angle(primitive, corners, i) / length);
+            if (length > 0)
+                (frame.mirrored ? mirrored : plain)[corners[i]] +=
+                    flat * (corner_angle(primitive, corners, i) / length);
         }
     }
     const auto tangent = [&](const glm::dvec3& sum, std::size_t v, float handedness) {

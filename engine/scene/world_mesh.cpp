@@ -1,6 +1,5 @@
 // Triangles of the posed scene in world space.
-#include <cmath>
-
+#include "engine/base/vec.h"
 #include "engine/scene/pose.h"
 
 namespace daylit {
@@ -10,13 +9,6 @@ namespace {
 /// scales. Its sign is the determinant's, which keeps mirrored normals outward only after division by it.
 Mat3 cofactor(const Mat3& m) {
     return Mat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-}
-
-Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
-    // In double: squares of the cofactors of millimetre scales underflow a float.
-    const glm::dvec3 d(v);
-    const double length = glm::length(d);
-    return length > 0 && std::isfinite(length) ? Vec3(d / length) : otherwise;
 }
 
 /// A primitive's vertices with morph targets applied, in the mesh's space.
@@ -30,7 +22,8 @@ Morphed morph(const Primitive& primitive, const std::vector<float>& weights) {
     for (std::size_t t = 0; t < primitive.morph_targets.size() && t < weights.size(); ++t) {
         const MorphTarget& target = primitive.morph_targets[t];
         if (weights[t] == 0.0f) continue;
-        for (std::size_t v = 0; v < target.positions.size(); ++v) result.positions[v] += weights[t] * target.positions[v];
+        for (std::size_t v = 0; v < target.positions.size(); ++v)
+            result.positions[v] += weights[t] * target.positions[v];
         for (std::size_t v = 0; v < target.normals.size(); ++v) result.normals[v] += weights[t] * target.normals[v];
         for (std::size_t v = 0; v < target.tangents.size() && v < result.tangents.size(); ++v)
             result.tangents[v] += Vec4(weights[t] * target.tangents[v], 0.0f);
@@ -84,7 +77,9 @@ class Builder {
             // A mirror turns the bitangent cross(n, t) * w round.
             if (mirror_) tangent.w = -tangent.w;
             out_.tangents.push_back(tangent);
-            const auto uv = [&](std::size_t set) { return set < primitive.uvs.size() ? primitive.uvs[set][v] : Vec2(0.0f); };
+            const auto uv = [&](std::size_t set) {
+                return set < primitive.uvs.size() ? primitive.uvs[set][v] : Vec2(0.0f);
+            };
             out_.uvs.push_back({uv(0), uv(1)});
             out_.colors.push_back(primitive.colors.empty() ? Rgba(1.0f) : primitive.colors[v]);
         }
@@ -93,7 +88,8 @@ class Builder {
     void add_triangles(const Primitive& primitive, std::uint32_t first, bool mirrored, std::uint32_t node) {
         for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
             const std::uint32_t a = primitive.indices[i], b = primitive.indices[i + 1], c = primitive.indices[i + 2];
-            out_.indices.insert(out_.indices.end(), {first + a, first + (mirrored ? c : b), first + (mirrored ? b : c)});
+            out_.indices.insert(out_.indices.end(),
+                                {first + a, first + (mirrored ? c : b), first + (mirrored ? b : c)});
             out_.materials.push_back(std::uint32_t(primitive.material));
             out_.nodes.push_back(node);
         }

@@ -182,7 +182,8 @@ TEST_F(BrokenGltf, a_tree_a_hundred_thousand_deep_is_no_problem) {
 }
 
 TEST_F(BrokenGltf, json_a_million_deep) {
-    std::string text = R"({"asset":{"version":"2.0"},"extras":)" + std::string(1000000, '[') + std::string(1000000, ']') + "}";
+    std::string text =
+        R"({"asset":{"version":"2.0"},"extras":)" + std::string(1000000, '[') + std::string(1000000, ']') + "}";
     write_file(folder_ / "deep.gltf", text);
     EXPECT_NE(error_of(folder_ / "deep.gltf").find("deep"), std::string::npos);
 }
@@ -207,8 +208,9 @@ TEST_F(BrokenGltf, images_absent_empty_or_of_another_kind) {
 
 TEST_F(BrokenGltf, a_png_that_declares_a_gigapixel) {
     // Signature and IHDR of 16384 x 16384 RGBA; check sums do not matter, since the size is judged first.
-    const std::vector<std::uint8_t> header = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0, 0, 0, 13, 'I', 'H', 'D', 'R',
-                                              0, 0, 0x40, 0, 0, 0, 0x40, 0, 8, 6, 0, 0, 0, 0, 0, 0, 0};
+    const std::vector<std::uint8_t> header = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0, 0, 0,
+                                              13,   'I', 'H', 'D', 'R',  0,    0,    0x40, 0, 0, 0,
+                                              0x40, 0,   8,   6,   0,    0,    0,    0,    0, 0, 0};
     EXPECT_THROW(read_image8(header, "huge.png"), Error);
 }
 
@@ -244,8 +246,9 @@ TEST_F(BrokenGltf, skins_and_animations_out_of_range) {
 
     GltfBuilder animated = test::triangle();
     const int times = animated.floats("SCALAR", {0, 1}), places = animated.floats("VEC3", {0, 0, 0, 1, 0, 0, 2, 0, 0});
-    animated.json["animations"] = {{{"samplers", {{{"input", times}, {"output", places}}}},
-                                    {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
+    animated.json["animations"] = {
+        {{"samplers", {{{"input", times}, {"output", places}}}},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
     expect_refused(animated, "3 elements for 2 times");
     animated.json["animations"][0]["channels"][0]["sampler"] = 1;
     expect_refused(animated, "sampler 1");

@@ -42,9 +42,9 @@ Outcome outcome(const std::filesystem::path& path) {
 /// Valid files that tinygltf 2.7 cannot read: an unknown accessor type, buffers without a uri or with a URI that is
 /// not base64, and an integer written with a point.
 bool beyond_tinygltf(const std::string& file) {
-    static const std::vector<std::string> kFiles = {"base/accessor/unknown_type.gltf", "base/accessor/valid.gltf",
-                                                    "base/buffer/data_uri.glb", "base/json/integer_written_as_float.gltf",
-                                                    "base/root/named_objects.gltf"};
+    static const std::vector<std::string> kFiles = {
+        "base/accessor/unknown_type.gltf", "base/accessor/valid.gltf", "base/buffer/data_uri.glb",
+        "base/json/integer_written_as_float.gltf", "base/root/named_objects.gltf"};
     return std::find(kFiles.begin(), kFiles.end(), file) != kFiles.end();
 }
 
@@ -86,7 +86,8 @@ TEST(HostileGltf, a_required_extension_is_refused_by_name) {
 }
 
 TEST(HostileGltf, gltf_1_is_refused_with_its_version) {
-    const auto path = std::filesystem::path(DAYLIT_SHARED_DIR) / "hostile/assimp/gltf-1.0/IncorrectVertexArrays/Cube_v1.gltf";
+    const auto path =
+        std::filesystem::path(DAYLIT_SHARED_DIR) / "hostile/assimp/gltf-1.0/IncorrectVertexArrays/Cube_v1.gltf";
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "NOT RUN: " << path << " is missing";
     EXPECT_NE(outcome(path).error.find("version"), std::string::npos) << outcome(path).error;
 }
@@ -96,7 +97,8 @@ TEST(HostileGltf, primitive_modes_hold_what_they_should) {
     const auto folder =
         std::filesystem::path(DAYLIT_SHARED_DIR) / "hostile/assimp/glTF-Asset-Generator/Mesh_PrimitiveMode";
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "NOT RUN: the folder " << folder << " is missing";
-    const std::map<std::string, std::size_t> triangles = {{"04", 2}, {"05", 2}, {"06", 2}, {"11", 2}, {"12", 2}, {"13", 2}};
+    const std::map<std::string, std::size_t> triangles = {{"04", 2}, {"05", 2}, {"06", 2},
+                                                          {"11", 2}, {"12", 2}, {"13", 2}};
     for (const auto& [number, count] : triangles) {
         const Scene scene = load_scene(folder / ("Mesh_PrimitiveMode_" + number + ".gltf"));
         EXPECT_EQ(world_mesh(scene, pose_scene(scene), Part::All).triangle_count(), count) << number;

@@ -29,8 +29,7 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
         std::uint32_t word = 0;
         for (std::size_t k = 0; k < 3; ++k) word = word << 8 | (i + k < bytes.size() ? bytes[i + k] : 0u);
-        for (std::size_t k = 0; k < 4; ++k)
-            text += i + k <= bytes.size() ? kDigits[word >> (18 - 6 * k) & 63] : '=';
+        for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? kDigits[word >> (18 - 6 * k) & 63] : '=';
     }
     return text;
 }
@@ -38,7 +37,8 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
 std::filesystem::path GltfBuilder::save_gltf(const std::filesystem::path& path) const {
     Json whole = json;
     if (!bytes.empty())
-        whole["buffers"] = {{{"byteLength", bytes.size()}, {"uri", "data:application/octet-stream;base64," + base64(bytes)}}};
+        whole["buffers"] = {
+            {{"byteLength", bytes.size()}, {"uri", "data:application/octet-stream;base64," + base64(bytes)}}};
     write_file(path, whole.dump());
     return path;
 }

@@ -35,8 +35,8 @@ struct GltfBuilder {
     /// Appends values (aligned to 4) as a view and an accessor; returns the accessor's index.
     template <typename T>
     int accessor(const std::string& type, int component_type, const std::vector<T>& values, bool normalized = false) {
-        static const std::map<std::string, std::size_t> kComponents = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3},
-                                                                       {"VEC4", 4},   {"MAT4", 16}};
+        static const std::map<std::string, std::size_t> kComponents = {
+            {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
         Json accessor = {{"bufferView", view(values)},
                          {"componentType", component_type},
                          {"count", values.size() / kComponents.at(type)},
@@ -51,7 +51,8 @@ struct GltfBuilder {
     template <typename T>
     int view(const std::vector<T>& values) {
         while (bytes.size() % 4 != 0) bytes.push_back(0);
-        json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", values.size() * sizeof(T)}});
+        json["bufferViews"].push_back(
+            {{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", values.size() * sizeof(T)}});
         const auto* first = reinterpret_cast<const std::uint8_t*>(values.data());
         bytes.insert(bytes.end(), first, first + values.size() * sizeof(T));
         return int(json["bufferViews"].size()) - 1;

@@ -104,7 +104,8 @@ TEST(GltfGeometry, vertices_of_no_use_are_left_out) {
 
 TEST(GltfGeometry, normals_of_no_length_come_from_the_triangle) {
     GltfBuilder builder = test::triangle();
-    builder.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = builder.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0});
+    builder.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] =
+        builder.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0});
     const Scene scene = loaded(builder);
     EXPECT_EQ(scene.meshes[0].primitives[0].normals[0], Vec3(0, 0, 1));
     EXPECT_EQ(scene.notes.size(), 1u);
@@ -140,7 +141,8 @@ TEST(GltfGeometry, strides_and_offsets) {
 TEST(GltfGeometry, normalised_integers) {
     GltfBuilder builder = test::triangle();
     auto& attributes = builder.json["meshes"][0]["primitives"][0]["attributes"];
-    attributes["COLOR_0"] = builder.accessor<std::uint8_t>("VEC4", 5121, {255, 0, 51, 255, 0, 0, 0, 0, 0, 0, 0, 102}, true);
+    attributes["COLOR_0"] =
+        builder.accessor<std::uint8_t>("VEC4", 5121, {255, 0, 51, 255, 0, 0, 0, 0, 0, 0, 0, 102}, true);
     attributes["TEXCOORD_0"] = builder.accessor<std::uint16_t>("VEC2", 5123, {65535, 0, 0, 65535, 13107, 0}, true);
     const Primitive primitive = only_primitive(builder);
     EXPECT_EQ(primitive.colors[0], Rgba(1, 0, 0.2f, 1));

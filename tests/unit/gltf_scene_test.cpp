@@ -41,7 +41,8 @@ Material material_of(const Json& json, const LoadOptions& options = {}) {
 TEST(GltfScene, gltf_and_glb_with_the_same_content_are_the_same_scene) {
     const test::TemporaryFolder folder;
     const GltfBuilder builder = test::triangle();
-    const Scene a = load_scene(builder.save_gltf(folder / "a.gltf")), b = load_scene(builder.save_glb(folder / "b.glb"));
+    const Scene a = load_scene(builder.save_gltf(folder / "a.gltf")),
+                b = load_scene(builder.save_glb(folder / "b.glb"));
     EXPECT_EQ(a.meshes[0].primitives[0].positions, b.meshes[0].primitives[0].positions);
     EXPECT_TRUE(a.notes.empty());
     EXPECT_TRUE(b.notes.empty());
@@ -49,7 +50,10 @@ TEST(GltfScene, gltf_and_glb_with_the_same_content_are_the_same_scene) {
 
 TEST(GltfScene, parents_come_before_children_and_only_the_default_scene_counts) {
     GltfBuilder builder = test::triangle();
-    builder.json["nodes"] = {{{"name", "leaf"}, {"mesh", 0}}, {{"name", "root"}, {"children", {3, 0}}}, {{"name", "other"}}, {{"name", "first"}}};
+    builder.json["nodes"] = {{{"name", "leaf"}, {"mesh", 0}},
+                             {{"name", "root"}, {"children", {3, 0}}},
+                             {{"name", "other"}},
+                             {{"name", "first"}}};
     builder.json["scenes"] = {{{"nodes", {2}}}, {{"nodes", {1}}}};
     builder.json["scene"] = 1;
     const Scene scene = loaded(builder);
@@ -59,8 +63,9 @@ TEST(GltfScene, parents_come_before_children_and_only_the_default_scene_counts) 
 
 TEST(GltfScene, cameras_are_named_after_their_nodes) {
     GltfBuilder builder = test::triangle();
-    builder.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}},
-                               {{"type", "orthographic"}, {"orthographic", {{"xmag", 2}, {"ymag", 3}, {"znear", 0}, {"zfar", 9}}}}};
+    builder.json["cameras"] = {
+        {{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}},
+        {{"type", "orthographic"}, {"orthographic", {{"xmag", 2}, {"ymag", 3}, {"znear", 0}, {"zfar", 9}}}}};
     builder.json["nodes"].push_back({{"name", "door"}, {"camera", 0}, {"translation", {0, 2, 0}}});
     builder.json["nodes"].push_back({{"camera", 1}});
     builder.json["scenes"][0]["nodes"] = {0, 1, 2};
@@ -124,20 +129,26 @@ TEST(GltfScene, primitives_without_a_material_get_the_default_one) {
 
 TEST(GltfScene, material_extensions) {
     EXPECT_EQ(material_of({{"emissiveFactor", {1, 0.5, 0}},
-                           {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 1000}}}}}}).emission,
+                           {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 1000}}}}}})
+                  .emission,
               Rgb(1000, 500, 0));
     EXPECT_TRUE(material_of({{"extensions", {{"KHR_materials_unlit", Json::object()}}}}).unlit);
     EXPECT_EQ(material_of({{"extensions", {{"KHR_materials_ior", {{"ior", 1.33}}}}}}).ior, 1.33f);
-    EXPECT_EQ(material_of({{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 0.9}}}}}}).transmission, 0.9f);
-    const Material coat = material_of({{"extensions", {{"KHR_materials_specular", {{"specularFactor", 0.5}, {"specularColorFactor", {1, 0, 0}}}}}}});
+    EXPECT_EQ(
+        material_of({{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 0.9}}}}}}).transmission,
+        0.9f);
+    const Material coat = material_of(
+        {{"extensions", {{"KHR_materials_specular", {{"specularFactor", 0.5}, {"specularColorFactor", {1, 0, 0}}}}}}});
     EXPECT_EQ(coat.specular, 0.5f);
     EXPECT_EQ(coat.specular_color, Rgb(1, 0, 0));
 }
 
 TEST(GltfScene, specular_glossiness_reflects_what_it_says) {
-    const Scene scene = loaded(with_material(
-        {{"extensions", {{"KHR_materials_pbrSpecularGlossiness",
-                          {{"diffuseFactor", {0.5, 0.25, 0, 1}}, {"specularFactor", {0.2, 0.4, 0.6}}, {"glossinessFactor", 0.75}}}}}}));
+    const Scene scene = loaded(with_material({{"extensions",
+                                               {{"KHR_materials_pbrSpecularGlossiness",
+                                                 {{"diffuseFactor", {0.5, 0.25, 0, 1}},
+                                                  {"specularFactor", {0.2, 0.4, 0.6}},
+                                                  {"glossinessFactor", 0.75}}}}}}));
     const glsl::Brdf brdf = surface_brdf(scene, scene.materials[0], {}, Rgba(1));
     // The extension: diffuse is scaled by 1 - max(specular) = 0.4.
     EXPECT_NEAR(brdf.diffuse.x, 0.2f, 1e-6f);
@@ -146,10 +157,27 @@ TEST(GltfScene, specular_glossiness_reflects_what_it_says) {
     EXPECT_EQ(scene.materials[0].roughness, 0.25f);
 }
 
+TEST(GltfScene, a_glossiness_texture_becomes_roughness) {
+    const test::TemporaryFolder folder;
+    write_image(folder / "p.png", Image(1, 1, Rgb(1)));  // alpha 1
+    GltfBuilder builder = with_material({{"extensions",
+                                          {{"KHR_materials_pbrSpecularGlossiness",
+                                            {{"glossinessFactor", 0.75},
+                                             {"specularFactor", {0.5, 0.5, 0.5}},
+                                             {"specularGlossinessTexture", {{"index", 0}}}}}}}});
+    builder.json["textures"] = {{{"source", 0}}};
+    builder.json["images"] = {{{"uri", "p.png"}}};
+    const Scene scene = load_scene(builder.save_gltf(folder / "s.gltf"));
+    const glsl::Brdf brdf = surface_brdf(scene, scene.materials[0], {}, Rgba(1));
+    EXPECT_NEAR(brdf.specular.x, 0.5f, 1e-5f);
+    EXPECT_NEAR(brdf.exponent, 2.0f / std::pow(0.25f, 4.0f) - 2.0f, 12.0f);  // roughness 64/255 for 1/4
+}
+
 TEST(GltfScene, lambert_leaves_colour_and_emission) {
-    const GltfBuilder builder = with_material({{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}, {"roughnessFactor", 0.1}}},
-                                               {"emissiveFactor", {1, 1, 1}},
-                                               {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}});
+    const GltfBuilder builder =
+        with_material({{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}, {"roughnessFactor", 0.1}}},
+                       {"emissiveFactor", {1, 1, 1}},
+                       {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}});
     const Scene scene = loaded(builder, {.lambert = true});
     const glsl::Brdf brdf = surface_brdf(scene, scene.materials[0], {}, Rgba(1));
     EXPECT_EQ(brdf.diffuse, Rgb(0.5f));
@@ -188,8 +216,9 @@ TEST(GltfScene, images_outside_inside_and_in_uris) {
     picture.at(1, 0) = Rgb(0, 0, 1);
     write_image(folder / "a picture.png", picture);
     const auto bytes = read_file(folder / "a picture.png");
-    GltfBuilder builder = with_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}, {"metallicRoughnessTexture", {{"index", 1}}}}},
-                                         {"emissiveTexture", {{"index", 2}}}});
+    GltfBuilder builder = with_material(
+        {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}, {"metallicRoughnessTexture", {{"index", 1}}}}},
+         {"emissiveTexture", {{"index", 2}}}});
     builder.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = builder.floats("VEC2", {0, 0, 1, 0, 0, 1});
     builder.json["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 1}}, {{"source", 2}}, {{"source", 3}}};
     builder.json["samplers"] = {{{"magFilter", 9728}, {"wrapS", 33071}, {"wrapT", 33648}}};
@@ -217,7 +246,10 @@ TEST(GltfScene, texture_transforms_turn_pictures_clockwise) {
     GltfBuilder builder = with_material(
         {{"pbrMetallicRoughness",
           {{"baseColorTexture",
-            {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"rotation", kPi / 8}, {"offset", {0.25, 0.5}}, {"scale", {2, 2}}, {"texCoord", 1}}}}}}}}}});
+            {{"index", 0},
+             {"extensions",
+              {{"KHR_texture_transform",
+                {{"rotation", kPi / 8}, {"offset", {0.25, 0.5}}, {"scale", {2, 2}}, {"texCoord", 1}}}}}}}}}});
     builder.json["textures"] = {{{"source", 0}}};
     builder.json["images"] = {{{"uri", "p.png"}}};
     const TextureRef ref = load_scene(builder.save_gltf(folder / "s.gltf")).materials[0].base_color_texture;
@@ -232,7 +264,8 @@ TEST(GltfScene, instances_are_placed_each) {
     GltfBuilder builder = test::triangle();
     builder.json["extensionsUsed"] = builder.json["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
     const int places = builder.floats("VEC3", {0, 0, 0, 10, 0, 0}), scales = builder.floats("VEC3", {1, 1, 1, 2, 2, 2});
-    builder.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", places}, {"SCALE", scales}};
+    builder.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", places},
+                                                                                       {"SCALE", scales}};
     builder.json["nodes"][0]["translation"] = {0, 5, 0};
     const Scene scene = loaded(builder);
     const WorldMesh mesh = world_mesh(scene, pose_scene(scene), Part::All);
@@ -264,8 +297,9 @@ TEST(GltfScene, dynamic_is_what_is_animated_below_it_or_skinned_by_it) {
     builder.json["nodes"] = {{{"mesh", 0}}, {{"children", {2}}}, {{"mesh", 0}}, {{"mesh", 1}, {"skin", 0}}};
     builder.json["scenes"][0]["nodes"] = {0, 1, 3};
     builder.json["skins"] = {{{"joints", {2}}}};
-    builder.json["animations"] = {{{"samplers", {{{"input", times}, {"output", places}}}},
-                                   {"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "translation"}}}}}}}};
+    builder.json["animations"] = {
+        {{"samplers", {{{"input", times}, {"output", places}}}},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "translation"}}}}}}}};
     const Scene scene = loaded(builder);
     EXPECT_FALSE(scene.nodes[0].dynamic);
     EXPECT_TRUE(scene.nodes[1].dynamic);

@@ -29,7 +29,8 @@ Scene one_triangle() {
     return scene;
 }
 
-AnimationChannel channel(AnimationPath path, Interpolation interpolation, std::vector<float> times, std::vector<float> values) {
+AnimationChannel channel(AnimationPath path, Interpolation interpolation, std::vector<float> times,
+                         std::vector<float> values) {
     return {0, path, interpolation, std::move(times), std::move(values)};
 }
 
@@ -39,11 +40,14 @@ Vec3 place_at(const Scene& scene, double seconds) {
 
 TEST(Pose, linear_and_step_keys) {
     Scene scene = one_triangle();
-    scene.animations = {{"", 2.0f, {channel(AnimationPath::Translation, Interpolation::Linear, {0, 1, 2}, {0, 0, 0, 4, 0, 0, 4, 8, 0})}}};
+    scene.animations = {
+        {"",
+         2.0f,
+         {channel(AnimationPath::Translation, Interpolation::Linear, {0, 1, 2}, {0, 0, 0, 4, 0, 0, 4, 8, 0})}}};
     expect_near(place_at(scene, 0.25), Vec3(1, 0, 0));
     expect_near(place_at(scene, 1.5), Vec3(4, 4, 0));
-    expect_near(place_at(scene, 2.25), Vec3(1, 0, 0));   // looped
-    expect_near(place_at(scene, -0.5), Vec3(4, 4, 0));   // before the beginning
+    expect_near(place_at(scene, 2.25), Vec3(1, 0, 0));  // looped
+    expect_near(place_at(scene, -0.5), Vec3(4, 4, 0));  // before the beginning
     scene.animations[0].channels[0].interpolation = Interpolation::Step;
     expect_near(place_at(scene, 0.99), Vec3(0));
     expect_near(place_at(scene, 1.01), Vec3(4, 0, 0));
@@ -52,8 +56,10 @@ TEST(Pose, linear_and_step_keys) {
 TEST(Pose, cubic_splines_are_hermite_with_tangents_per_second) {
     Scene scene = one_triangle();
     // From 0 to 0 in 2 s, leaving with 3 m/s and arriving with 0: at the middle h10 * 2 * 3 = 0.125 * 6.
-    scene.animations = {{"", 2.0f, {channel(AnimationPath::Translation, Interpolation::CubicSpline, {0, 2},
-                                            {0, 0, 0, 0, 0, 0, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0})}}};
+    scene.animations = {{"",
+                         2.0f,
+                         {channel(AnimationPath::Translation, Interpolation::CubicSpline, {0, 2},
+                                  {0, 0, 0, 0, 0, 0, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0})}}};
     expect_near(place_at(scene, 1.0), Vec3(0.75f, 0, 0));
 }
 
@@ -61,7 +67,8 @@ TEST(Pose, rotations_take_the_short_way_on_the_sphere) {
     Scene scene = one_triangle();
     const float h = std::sqrt(0.5f);
     // 0 and 90 degrees about y, the second with its sign turned.
-    scene.animations = {{"", 1.0f, {channel(AnimationPath::Rotation, Interpolation::Linear, {0, 1}, {0, 0, 0, 1, 0, -h, 0, -h})}}};
+    scene.animations = {
+        {"", 1.0f, {channel(AnimationPath::Rotation, Interpolation::Linear, {0, 1}, {0, 0, 0, 1, 0, -h, 0, -h})}}};
     const Vec3 turned = Vec3(pose_scene(scene, 1.0 / 3.0).world_from_node[0] * Vec4(0, 0, 1, 0));
     expect_near(turned, Vec3(0.5f, 0, std::sqrt(0.75f)));
 }
@@ -122,7 +129,8 @@ TEST(WorldMesh, normals_stay_square_under_unequal_scales_and_mirrors) {
     Primitive& primitive = scene.meshes[0].primitives[0];
     primitive.positions = {Vec3(0), Vec3(1, 0, -1), Vec3(0, 1, 0)};
     primitive.normals.assign(3, geometric_normal(world_mesh(scene, pose_scene(scene), Part::All)));
-    for (const Vec3& scale : {Vec3(3, 0.1f, 1), Vec3(-1, 1, 1), Vec3(-2, -1, -1), Vec3(1e-4f, 1e-4f, 1e-4f), Vec3(-1, -1, 2)}) {
+    for (const Vec3& scale :
+         {Vec3(3, 0.1f, 1), Vec3(-1, 1, 1), Vec3(-2, -1, -1), Vec3(1e-4f, 1e-4f, 1e-4f), Vec3(-1, -1, 2)}) {
         scene.nodes[0].scale = scale;
         const WorldMesh mesh = world_mesh(scene, pose_scene(scene), Part::All);
         expect_near(mesh.normals[0], geometric_normal(mesh));
@@ -190,7 +198,8 @@ TEST(View, an_overview_holds_the_whole_box) {
     box.add(Vec3(30, 5, 40));
     const View view = overview(box);
     for (int corner = 0; corner < 8; ++corner) {
-        const Vec3 p(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z);
+        const Vec3 p(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                     corner & 4 ? box.max.z : box.min.z);
         const Vec4 clip = projection(view, 100, 100) * view.view_from_world * Vec4(p, 1);
         EXPECT_LE(std::abs(clip.x), clip.w);
         EXPECT_LE(std::abs(clip.y), clip.w);

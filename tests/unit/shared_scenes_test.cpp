@@ -24,8 +24,10 @@ TEST(SharedScenes, levels_have_their_triangles_and_bounds) {
         EXPECT_EQ(facts.static_triangles, level["triangles"].get<std::size_t>()) << file;
         for (int axis = 0; axis < 3; ++axis) {
             const float size = facts.bounds.max[axis] - facts.bounds.min[axis];
-            EXPECT_NEAR(facts.bounds.min[axis], level["min"][std::size_t(axis)].get<float>(), 1e-4f * size + 1e-3f) << file;
-            EXPECT_NEAR(facts.bounds.max[axis], level["max"][std::size_t(axis)].get<float>(), 1e-4f * size + 1e-3f) << file;
+            EXPECT_NEAR(facts.bounds.min[axis], level["min"][std::size_t(axis)].get<float>(), 1e-4f * size + 1e-3f)
+                << file;
+            EXPECT_NEAR(facts.bounds.max[axis], level["max"][std::size_t(axis)].get<float>(), 1e-4f * size + 1e-3f)
+                << file;
         }
     }
 }
@@ -37,8 +39,9 @@ struct Object {
 
 TEST(SharedScenes, objects) {
     if (!std::filesystem::exists(kScenes)) GTEST_SKIP() << "NOT RUN: the folder " << kScenes << " is missing";
-    for (const Object& object : {Object{"bunny.glb", 5648, 0, 0}, Object{"suzanne.glb", 14842, 0, 0},
-                                 Object{"flight-helmet/FlightHelmet.gltf", 94722, 15, 0}, Object{"fox.glb", 576, 1, 3}}) {
+    for (const Object& object :
+         {Object{"bunny.glb", 5648, 0, 0}, Object{"suzanne.glb", 14842, 0, 0},
+          Object{"flight-helmet/FlightHelmet.gltf", 94722, 15, 0}, Object{"fox.glb", 576, 1, 3}}) {
         const Scene scene = load_scene(kScenes / "objects" / object.file);
         const SceneFacts facts = scene_facts(scene);
         EXPECT_EQ(facts.static_triangles + facts.dynamic_triangles, object.triangles) << object.file;

@@ -26,7 +26,7 @@ TEST_F(TwoTexels, texel_centres_lie_at_halves) {
 }
 
 TEST_F(TwoTexels, wrap_modes) {
-    EXPECT_FLOAT_EQ(red(0.0f), 0.5f);     // repeat: half of the texel at the other end
+    EXPECT_FLOAT_EQ(red(0.0f), 0.5f);  // repeat: half of the texel at the other end
     EXPECT_FLOAT_EQ(red(-0.25f), 1.0f);
     EXPECT_FLOAT_EQ(red(1001.25f), 0.0f);
     scene.textures[0].wrap_s = Wrap::Clamp;
@@ -72,7 +72,9 @@ TEST_F(TwoTexels, coverage_by_alpha_mode) {
     Material material;
     material.base_color = Rgba(0.5f, 1, 1, 0.8f);
     material.base_color_texture = ref;
-    const auto alpha = [&](float u) { return base_color(scene, material, {Vec2(u, 0.5f), Vec2(0)}, Rgba(1, 1, 1, 0.5f)).a; };
+    const auto alpha = [&](float u) {
+        return base_color(scene, material, {Vec2(u, 0.5f), Vec2(0)}, Rgba(1, 1, 1, 0.5f)).a;
+    };
     EXPECT_EQ(alpha(0.25f), 1.0f);
     material.alpha_mode = AlphaMode::Blend;
     EXPECT_FLOAT_EQ(alpha(0.25f), 0.4f);
@@ -91,7 +93,7 @@ TEST(Material, dielectrics_and_metals) {
     glsl::Brdf brdf = surface_brdf(scene, material, {}, Rgba(1));
     EXPECT_NEAR(brdf.diffuse.x, 0.48f, 1e-6f);  // f0 = ((1.5 - 1) / (1.5 + 1))^2 = 0.04
     EXPECT_NEAR(brdf.specular.y, 0.04f, 1e-7f);
-    EXPECT_NEAR(brdf.exponent, 30.0f, 1e-4f);   // alpha = 1/4: 2 * 16 - 2
+    EXPECT_NEAR(brdf.exponent, 30.0f, 1e-4f);  // alpha = 1/4: 2 * 16 - 2
     material.metallic = 1;
     brdf = surface_brdf(scene, material, {}, Rgba(1));
     EXPECT_EQ(brdf.diffuse, Rgb(0));
