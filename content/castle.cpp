@@ -1,4 +1,5 @@
-// The koldinghus level: order of building. Nothing here is measured from the real castle; ORIGINS.md says what it follows.
+// The koldinghus level: order of building. Nothing here is measured from the real castle; ORIGINS.md says what it
+// follows.
 #include "content/castle.h"
 
 #include <utility>
@@ -43,14 +44,14 @@ int clear(Level& level, const std::string& name, const Rgb& tint, float alpha) {
 }  // namespace
 
 Palette make_palette(Level& level) {
-    const std::vector<int> made = add_patterns(
-        level, {brick(), ashlar(), rough_stone(), plaster(), oak(), oak_floor(), marble_floor(), brass(), iron(),
-                tapestry(), banner(), linen(), leaded_glass(), cobbles(), gravel(), grass(), roof_tiles(), leaves(),
-                bark(), books()});
+    const std::vector<int> made =
+        add_patterns(level, {brick(),  ashlar(), rough_stone(), plaster(), oak(),   oak_floor(),    marble_floor(),
+                             brass(),  iron(),   tapestry(),    banner(),  linen(), leaded_glass(), cobbles(),
+                             gravel(), grass(),  roof_tiles(),  leaves(),  bark(),  books()});
     Palette p{};
-    int* const slots[] = {&p.brick, &p.ashlar, &p.field_stone, &p.plaster, &p.oak, &p.boards, &p.marble, &p.brass,
-                          &p.iron, &p.tapestry, &p.banner, &p.wool, &p.lattice, &p.cobbles, &p.gravel, &p.grass,
-                          &p.roof, &p.leaves, &p.bark, &p.books};
+    int* const slots[] = {&p.brick,  &p.ashlar, &p.field_stone, &p.plaster, &p.oak,  &p.boards,  &p.marble,
+                          &p.brass,  &p.iron,   &p.tapestry,    &p.banner,  &p.wool, &p.lattice, &p.cobbles,
+                          &p.gravel, &p.grass,  &p.roof,        &p.leaves,  &p.bark, &p.books};
     for (std::size_t i = 0; i < made.size(); ++i) *slots[i] = made[i];
 
     p.dark_oak = variant(level, p.oak, "dark oak", {0.62f, 0.56f, 0.5f}, 0.5f);
@@ -87,9 +88,22 @@ Level koldinghus() {
     level.name = "koldinghus";
     level.day = Day{};
     const Palette use = make_palette(level);
-    Castle c{.level = level, .use = use, .blocks = {}, .earth = 0, .paving = 0, .gravel = 0, .walls = 0, .stone = 0,
-             .hall = 0, .treasury = 0, .cellar = 0, .arcade = 0, .gate = 0,
-             .hall_trim = {}, .treasury_trim = {}, .court_trim = {}};
+    Castle c{.level = level,
+             .use = use,
+             .blocks = {},
+             .earth = 0,
+             .paving = 0,
+             .gravel = 0,
+             .walls = 0,
+             .stone = 0,
+             .hall = 0,
+             .treasury = 0,
+             .cellar = 0,
+             .arcade = 0,
+             .gate = 0,
+             .hall_trim = {},
+             .treasury_trim = {},
+             .court_trim = {}};
     c.earth = c.blocks.add_solid({use.field_stone, use.grass, use.field_stone});
     c.paving = c.blocks.add_solid({use.field_stone, use.cobbles, use.field_stone});
     c.gravel = c.blocks.add_solid({use.field_stone, use.gravel, use.field_stone});
@@ -107,8 +121,8 @@ Level koldinghus() {
     build_treasury(c);
     build_cellar(c);
     const std::pair<const char*, int> shells[] = {{"castle and grounds", c.open_air}, {"hall walls", c.hall},
-                                                  {"treasury walls", c.treasury}, {"cellar walls", c.cellar},
-                                                  {"arcade walls", c.arcade}, {"gate walls", c.gate}};
+                                                  {"treasury walls", c.treasury},     {"cellar walls", c.cellar},
+                                                  {"arcade walls", c.arcade},         {"gate walls", c.gate}};
     for (const auto& [name, room] : shells)
         if (LevelMesh faces = c.blocks.faces(name, room); !faces.parts.empty()) level.add_object(std::move(faces));
     level.add_object(c.hall_trim.take("hall windows and mouldings"));
@@ -132,13 +146,13 @@ void add_cameras(Castle& c) {
     l.add_camera("brass", {19.1f, 1.75f, 5.4f}, {20.9f, 1.45f, 7.1f}, 55);
     l.add_camera("glass", {18.6f, 1.75f, 6.0f}, {17.45f, 1.4f, 7.45f}, 55);
     l.add_camera("courtyard", {9.6f, 1.65f, 8.8f}, {-6.5f, 5.2f, -9.0f}, 65);
-    l.add_camera("arcade", {-13.2f, 1.65f, -12.6f}, {6.0f, 1.9f, -11.6f}, 60);
-    l.add_camera("cellar_entrance", {-12.2f, 1.65f, 8.4f}, {-13.3f, -0.9f, 2.6f}, 62);
+    l.add_camera("arcade", {-12.6f, 1.65f, -11.3f}, {4.0f, 1.9f, -12.6f}, 60);
+    l.add_camera("cellar_entrance", {-13.1f, 1.65f, 8.6f}, {-13.2f, -1.6f, 2.0f}, 62);
     l.add_camera("cellar_maze", {-6.2f, -1.77f, 4.45f}, {-11.4f, -2.0f, 4.1f}, 65);
     l.add_camera("door", {2.2f, 1.95f, 16.6f}, {6.2f, 1.7f, 11.6f}, 60);
     l.add_camera("cart", {-3.2f, 1.5f, 18.9f}, {-6.0f, 0.95f, 21.2f}, 55);
     l.add_camera("figure", {-0.4f, 1.65f, -4.9f}, {3.4f, 1.2f, -8.2f}, 55);
-    l.add_camera("tower", {-15.34f, 26.9f, -9.66f}, {-2.0f, 0.0f, 2.5f}, 60);
+    l.add_camera("tower", {-15.3f, 26.6f, -9.5f}, {1.0f, 2.0f, 7.0f}, 60);
     l.add_camera("overview", {41.0f, 25.5f, 46.0f}, {-1.0f, 4.0f, 2.0f}, 50);
 }
 

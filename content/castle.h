@@ -18,9 +18,9 @@ struct Castle {
     Level& level;
     Palette use;
     Blocks blocks;
-    int earth, paving, gravel, walls, stone;        // solids
+    int earth, paving, gravel, walls, stone;                 // solids
     int open_air = 0, hall, treasury, cellar, arcade, gate;  // rooms
-    MeshBuilder hall_trim, treasury_trim, court_trim;  // openings and mouldings, one mesh a room
+    MeshBuilder hall_trim, treasury_trim, court_trim;        // openings and mouldings, one mesh a room
 };
 
 inline constexpr float kHallFloor = 0.3f, kHallCeiling = 9.3f;
@@ -47,7 +47,8 @@ void add_goblet(MeshBuilder& b, int material, const Vec3& foot, float height);
 /// Base, shaft and capital; stands on `foot`, free or half sunk in a wall.
 void add_column(MeshBuilder& b, int material, const Vec3& foot, float radius, float height);
 /// A cloth with gentle folds on a pole, in front of a wall; its picture shown once.
-void add_hanging(MeshBuilder& b, const Castle& castle, int cloth, const Vec3& top, Facing facing, const Vec2& size, float fold);
+void add_hanging(MeshBuilder& b, const Castle& castle, int cloth, const Vec3& top, Facing facing, const Vec2& size,
+                 float fold);
 void add_shield(MeshBuilder& b, const Palette& use, int field, const Vec3& centre, Facing facing);
 void add_teapot(MeshBuilder& b, int material, const Mat4& place, int divisions);
 

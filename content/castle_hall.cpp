@@ -21,7 +21,8 @@ void add_timber(Castle& c) {
             Vec3 last(0.0f);
             for (int i = 0; i <= 5; ++i) {
                 const double a = kPi / 2 * i / 5;
-                const Vec3 p(x, 6.5f + 2.3f * float(std::sin(a)), wall + in * (0.2f + 2.6f * (1.0f - float(std::cos(a)))));
+                const Vec3 p(x, 6.5f + 2.3f * float(std::sin(a)),
+                             wall + in * (0.2f + 2.6f * (1.0f - float(std::cos(a)))));
                 if (i > 0) b.beam(last - 0.04f * glm::normalize(p - last), p, 0.26f, 0.28f, Vec3(1, 0, 0));
                 last = p;
             }
@@ -48,8 +49,10 @@ void add_stonework(Castle& c) {
     }
     b.bevel_box({-6.55f, 2.04f, 12.64f}, {-3.45f, 2.42f, 13.22f}, 0.04f);
     b.bevel_box({-6.65f, 2.41f, 12.62f}, {-3.35f, 2.53f, 13.32f}, 0.04f);
-    const std::array<Vec3, 4> foot = {Vec3(-6.5f, 2.52f, 12.69f), {-6.5f, 2.52f, 13.15f}, {-3.5f, 2.52f, 13.15f}, {-3.5f, 2.52f, 12.69f}};
-    const std::array<Vec3, 4> crown = {Vec3(-5.7f, 5.2f, 12.69f), {-5.7f, 5.2f, 12.74f}, {-4.3f, 5.2f, 12.74f}, {-4.3f, 5.2f, 12.69f}};
+    const std::array<Vec3, 4> foot = {
+        Vec3(-6.5f, 2.52f, 12.69f), {-6.5f, 2.52f, 13.15f}, {-3.5f, 2.52f, 13.15f}, {-3.5f, 2.52f, 12.69f}};
+    const std::array<Vec3, 4> crown = {
+        Vec3(-5.7f, 5.2f, 12.69f), {-5.7f, 5.2f, 12.74f}, {-4.3f, 5.2f, 12.74f}, {-4.3f, 5.2f, 12.69f}};
     b.band(foot, crown, false);
     b.bevel_box({-6.3f, kHallFloor - 0.02f, 12.6f}, {-3.7f, kHallFloor + 0.06f, 13.7f}, 0.02f);
     c.level.add_object(b.take("hall columns and fireplace"));
@@ -72,7 +75,8 @@ void add_stonework(Castle& c) {
     b.material(c.use.embers);
     for (int i = 0; i < 14; ++i) {
         const float a = float(i) * 2.4f, r = 0.42f * std::sqrt(float(i) / 14.0f);
-        b.sphere({-5.0f + r * std::cos(a) * 1.2f, 0.42f + 0.02f * float(i % 3), 12.0f + 0.7f * r * std::sin(a)}, 0.045f, 6);
+        b.sphere({-5.0f + r * std::cos(a) * 1.2f, 0.42f + 0.02f * float(i % 3), 12.0f + 0.7f * r * std::sin(a)}, 0.045f,
+                 6);
     }
     c.level.add_object(b.take("hearth"));
 }
@@ -82,15 +86,17 @@ void add_table(MeshBuilder& b, const Palette& use, const Vec3& centre, float len
     const float top = centre.y + 0.78f, x0 = centre.x - 0.5f * length, x1 = centre.x + 0.5f * length;
     const float z0 = centre.z - 0.5f * width, board = width / 4.0f;
     for (int i = 0; i < 4; ++i)
-        b.bevel_box({x0, top - 0.06f, z0 + board * float(i) + 0.003f}, {x1, top, z0 + board * float(i + 1) - 0.003f}, 0.008f, Mapping::Grain);
+        b.bevel_box({x0, top - 0.06f, z0 + board * float(i) + 0.003f}, {x1, top, z0 + board * float(i + 1) - 0.003f},
+                    0.008f, Mapping::Grain);
     for (int i = 0; i <= 3; ++i) {
         const float x = x0 + 0.6f + (length - 1.2f) * float(i) / 3.0f;
-        b.bevel_box({x - 0.06f, top - 0.16f, z0 + 0.06f}, {x + 0.06f, top - 0.055f, z0 + width - 0.06f}, 0.01f, Mapping::Grain);
+        b.bevel_box({x - 0.06f, top - 0.16f, z0 + 0.06f}, {x + 0.06f, top - 0.055f, z0 + width - 0.06f}, 0.01f,
+                    Mapping::Grain);
         for (float z : {z0 + 0.2f, z0 + width - 0.2f}) {
             b.at(Vec3(x, centre.y, z));
-            const std::array turned = {Vec2(0, 0.0f), Vec2(0.075f, 0.0f), Vec2(0.075f, 0.1f), Vec2(0.05f, 0.13f), Vec2(0.055f, 0.2f),
-                                       Vec2(0.08f, 0.32f), Vec2(0.055f, 0.44f), Vec2(0.045f, 0.5f), Vec2(0.07f, 0.54f),
-                                       Vec2(0.07f, 0.64f), Vec2(0, 0.64f)};
+            const std::array turned = {Vec2(0, 0.0f),      Vec2(0.075f, 0.0f), Vec2(0.075f, 0.1f),  Vec2(0.05f, 0.13f),
+                                       Vec2(0.055f, 0.2f), Vec2(0.08f, 0.32f), Vec2(0.055f, 0.44f), Vec2(0.045f, 0.5f),
+                                       Vec2(0.07f, 0.54f), Vec2(0.07f, 0.64f), Vec2(0, 0.64f)};
             b.lathe(turned, 12);
             b.at(Mat4(1.0f));
         }
@@ -104,7 +110,8 @@ void add_bench(MeshBuilder& b, const Palette& use, const Vec3& centre, float len
     b.bevel_box({x0, y + 0.42f, centre.z - 0.18f}, {x1, y + 0.47f, centre.z + 0.18f}, 0.01f, Mapping::Grain);
     for (int i = 0; i <= 3; ++i) {
         const float x = x0 + 0.35f + (length - 0.7f) * float(i) / 3.0f;
-        b.bevel_box({x - 0.03f, y, centre.z - 0.15f}, {x + 0.03f, y + 0.425f, centre.z + 0.15f}, 0.006f, Mapping::Grain);
+        b.bevel_box({x - 0.03f, y, centre.z - 0.15f}, {x + 0.03f, y + 0.425f, centre.z + 0.15f}, 0.006f,
+                    Mapping::Grain);
     }
     b.beam({x0 + 0.3f, y + 0.2f, centre.z}, {x1 - 0.3f, y + 0.2f, centre.z}, 0.04f, 0.08f);
 }
@@ -112,14 +119,24 @@ void add_bench(MeshBuilder& b, const Palette& use, const Vec3& centre, float len
 void add_candelabrum(MeshBuilder& b, const Palette& use, const Vec3& foot, float height) {
     b.at(foot).material(use.brass);
     const float h = height;
-    const std::array stem = {Vec2(0, 0), Vec2(0.12f, 0), Vec2(0.12f, 0.015f), Vec2(0.07f, 0.04f), Vec2(0.02f, 0.07f), Vec2(0.016f, 0.4f * h),
-                             Vec2(0.03f, 0.45f * h), Vec2(0.016f, 0.5f * h), Vec2(0.014f, 0.86f * h), Vec2(0.03f, h), Vec2(0, h)};
+    const std::array stem = {Vec2(0, 0),
+                             Vec2(0.12f, 0),
+                             Vec2(0.12f, 0.015f),
+                             Vec2(0.07f, 0.04f),
+                             Vec2(0.02f, 0.07f),
+                             Vec2(0.016f, 0.4f * h),
+                             Vec2(0.03f, 0.45f * h),
+                             Vec2(0.016f, 0.5f * h),
+                             Vec2(0.014f, 0.86f * h),
+                             Vec2(0.03f, h),
+                             Vec2(0, h)};
     b.lathe(stem, 14);
     for (int side : {-1, 1}) {
         std::vector<Vec3> arm;
         for (int i = 0; i <= 8; ++i) {
             const double a = kPi * i / 8;
-            arm.emplace_back(float(side) * 0.075f * (1.0f - float(std::cos(a))), h * 0.8f - 0.06f * float(std::sin(a)) + 0.02f * float(i) / 8, 0);
+            arm.emplace_back(float(side) * 0.075f * (1.0f - float(std::cos(a))),
+                             h * 0.8f - 0.06f * float(std::sin(a)) + 0.02f * float(i) / 8, 0);
         }
         b.tube(arm, 0.009f, 8);
         b.cylinder({float(side) * 0.15f, h * 0.8f + 0.015f, 0}, 0.028f, 0.03f, 12);
@@ -143,12 +160,15 @@ void add_feast(Castle& c) {
         for (float side : {-1.0f, 1.0f}) {
             const Vec3 place(x + 0.1f * std::sin(float(i) * 2.3f + side), top, table.z + side * 0.36f);
             b.at(place).material(i % 3 == 1 ? use.earthenware : use.silver);
-            b.lathe(std::array{Vec2(0, 0.002f), Vec2(0.08f, 0.002f), Vec2(0.13f, 0.02f), Vec2(0.13f, 0.025f), Vec2(0.08f, 0.01f), Vec2(0, 0.01f)}, 14);
+            b.lathe(std::array{Vec2(0, 0.002f), Vec2(0.08f, 0.002f), Vec2(0.13f, 0.02f), Vec2(0.13f, 0.025f),
+                               Vec2(0.08f, 0.01f), Vec2(0, 0.01f)},
+                    14);
             b.at(Mat4(1.0f));
             add_goblet(b, i % 2 ? use.silver : use.brass, place + Vec3(0.2f, 0, -side * 0.06f), 0.16f);
             if ((i + int(side)) % 3 == 0) {
                 b.at(placed(place + Vec3(0, 0.045f, 0), float(i))).material(use.bread);
-                b.at(placed(place + Vec3(0, 0.05f, 0), float(i)) * glm::mat4(Vec4(1.4f, 0, 0, 0), Vec4(0, 0.6f, 0, 0), Vec4(0, 0, 0.9f, 0), Vec4(0, 0, 0, 1)));
+                b.at(placed(place + Vec3(0, 0.05f, 0), float(i)) *
+                     glm::mat4(Vec4(1.4f, 0, 0, 0), Vec4(0, 0.6f, 0, 0), Vec4(0, 0, 0.9f, 0), Vec4(0, 0, 0, 1)));
                 b.sphere({0, 0, 0}, 0.075f, 10);
                 b.at(Mat4(1.0f));
             }
@@ -157,7 +177,9 @@ void add_feast(Castle& c) {
     for (float x : {-3.7f, -0.4f, 2.9f}) add_candelabrum(b, use, {x, top, table.z}, 0.42f);
     for (float x : {-2.0f, 1.4f}) {  // bowls of apples
         b.at(Vec3(x, top, table.z)).material(use.earthenware);
-        b.lathe(std::array{Vec2(0, 0), Vec2(0.09f, 0), Vec2(0.1f, 0.015f), Vec2(0.19f, 0.09f), Vec2(0.2f, 0.11f), Vec2(0.185f, 0.105f), Vec2(0.1f, 0.03f), Vec2(0, 0.025f)}, 24);
+        b.lathe(std::array{Vec2(0, 0), Vec2(0.09f, 0), Vec2(0.1f, 0.015f), Vec2(0.19f, 0.09f), Vec2(0.2f, 0.11f),
+                           Vec2(0.185f, 0.105f), Vec2(0.1f, 0.03f), Vec2(0, 0.025f)},
+                24);
         b.at(Mat4(1.0f)).material(use.apple);
         for (int i = 0; i < 6; ++i) {
             const float a = 1.05f * float(i);
@@ -167,8 +189,13 @@ void add_feast(Castle& c) {
     }
     for (float x : {-4.6f, 4.0f}) {  // wine jugs
         b.at(Vec3(x, top, table.z + 0.05f)).material(use.silver);
-        b.lathe(std::array{Vec2(0, 0), Vec2(0.075f, 0), Vec2(0.07f, 0.02f), Vec2(0.1f, 0.1f), Vec2(0.09f, 0.18f), Vec2(0.05f, 0.26f), Vec2(0.06f, 0.32f), Vec2(0.05f, 0.32f), Vec2(0.04f, 0.26f), Vec2(0, 0.24f)}, 20);
-        b.tube(std::array{Vec3(0.055f, 0.29f, 0), Vec3(0.12f, 0.29f, 0), Vec3(0.14f, 0.22f, 0), Vec3(0.13f, 0.15f, 0), Vec3(0.095f, 0.12f, 0)}, 0.009f, 8);
+        b.lathe(
+            std::array{Vec2(0, 0), Vec2(0.075f, 0), Vec2(0.07f, 0.02f), Vec2(0.1f, 0.1f), Vec2(0.09f, 0.18f),
+                       Vec2(0.05f, 0.26f), Vec2(0.06f, 0.32f), Vec2(0.05f, 0.32f), Vec2(0.04f, 0.26f), Vec2(0, 0.24f)},
+            20);
+        b.tube(std::array{Vec3(0.055f, 0.29f, 0), Vec3(0.12f, 0.29f, 0), Vec3(0.14f, 0.22f, 0), Vec3(0.13f, 0.15f, 0),
+                          Vec3(0.095f, 0.12f, 0)},
+               0.009f, 8);
         b.at(Mat4(1.0f));
     }
     c.level.add_object(b.take("feast"));
@@ -182,13 +209,13 @@ void add_cloth(Castle& c) {
     add_hanging(b, c, use.tapestry, {10.4f, 5.9f, 12.08f}, Facing::South, {2.7f, 4.05f}, 0.02f);
     add_hanging(b, c, use.tapestry, {13.92f, 7.2f, 17.5f}, Facing::West, {3.4f, 5.1f}, 0.02f);
     for (float x : {-7.8f, -2.6f, 2.6f, 7.8f})
-        for (float z : {14.4f, 20.6f})
-            add_hanging(b, c, use.banner, {x, 8.62f, z}, Facing::West, {1.0f, 2.3f}, 0.035f);
+        for (float z : {14.4f, 20.6f}) add_hanging(b, c, use.banner, {x, 8.62f, z}, Facing::West, {1.0f, 2.3f}, 0.035f);
     // Gauze on either side of the throne.
     b.material(use.gauze);
     for (float z : {15.7f, 19.3f})
         b.grid(16, 8, {1.2f, 3.6f}, [=](float s, float t) {
-            return Vec3(13.5f - 0.05f * std::sin(s * 20.0f) - 0.2f * t * (1 - s), kHallFloor + 0.5f + 3.7f * t, z + (s - 0.5f) * 1.1f);
+            return Vec3(13.5f - 0.05f * std::sin(s * 20.0f) - 0.2f * t * (1 - s), kHallFloor + 0.5f + 3.7f * t,
+                        z + (s - 0.5f) * 1.1f);
         });
     add_shield(b, use, use.red_wool, {-13.0f + 2.55f * 2 + 0.05f, 4.3f, 12.0f}, Facing::South);
     add_shield(b, use, use.blue_wool, {3.4f, 4.6f, 12.0f}, Facing::South);
@@ -200,7 +227,8 @@ void add_cloth(Castle& c) {
     b.material(use.red_wool);
     b.box({-12.5f, kHallFloor - 0.01f, 17.75f}, {10.19f, kHallFloor + 0.015f, 18.95f});
     b.material(use.gold);
-    for (float z : {17.75f, 18.87f}) b.box({-12.48f, kHallFloor - 0.005f, z + 0.02f}, {10.18f, kHallFloor + 0.018f, z + 0.06f});
+    for (float z : {17.75f, 18.87f})
+        b.box({-12.48f, kHallFloor - 0.005f, z + 0.02f}, {10.18f, kHallFloor + 0.018f, z + 0.06f});
     c.level.add_object(b.take("runner"));
 }
 
@@ -219,7 +247,8 @@ void add_throne(MeshBuilder& b, const Palette& use, const Vec3& foot) {
     b.bevel_box({0.02f, 0.45f, -0.33f}, {0.53f, 0.54f, 0.33f}, 0.03f);
     b.bevel_box({0.47f, 0.7f, -0.3f}, {0.53f, 1.6f, 0.3f}, 0.025f);
     std::vector<Vec3> front, back;  // gabled crest
-    for (const Vec2& p : {Vec2(-0.4f, 1.74f), Vec2(0.4f, 1.74f), Vec2(0.25f, 2.0f), Vec2(0, 2.2f), Vec2(-0.25f, 2.0f)}) {
+    for (const Vec2& p :
+         {Vec2(-0.4f, 1.74f), Vec2(0.4f, 1.74f), Vec2(0.25f, 2.0f), Vec2(0, 2.2f), Vec2(-0.25f, 2.0f)}) {
         front.emplace_back(0.54f, p.y, p.x);
         back.emplace_back(0.64f, p.y, p.x);
     }
@@ -243,7 +272,8 @@ void add_dais(Castle& c) {
         for (int i = 0; i < 3; ++i) {
             const float a = 2.0944f * float(i);
             b.tube(std::array{foot + Vec3(0.32f * std::cos(a), 0.015f, 0.32f * std::sin(a)),
-                              foot + Vec3(0.16f * std::cos(a), 0.14f, 0.16f * std::sin(a)), foot + Vec3(0, 0.3f, 0)}, 0.018f, 8);
+                              foot + Vec3(0.16f * std::cos(a), 0.14f, 0.16f * std::sin(a)), foot + Vec3(0, 0.3f, 0)},
+                   0.018f, 8);
         }
         b.tube(std::array{foot + Vec3(0, 0.28f, 0), foot + Vec3(0, 1.75f, 0)}, 0.022f, 10);
         b.torus(foot + Vec3(0, 1.7f, 0), 0.28f, 0.015f, 24, 6);
@@ -255,7 +285,8 @@ void add_dais(Castle& c) {
             b.cylinder(p + Vec3(0, 0.01f, 0), 0.04f, 0.02f, 10);
             add_candle(b, c.use, p + Vec3(0, 0.03f, 0), 0.18f);
         }
-        c.level.add_lamp({z < 17 ? "candelabrum north" : "candelabrum south", Rgb(1.0f, 0.56f, 0.22f) * 160.0f}, foot + Vec3(0, 2.12f, 0));
+        c.level.add_lamp({z < 17 ? "candelabrum north" : "candelabrum south", Rgb(1.0f, 0.56f, 0.22f) * 160.0f},
+                         foot + Vec3(0, 2.12f, 0));
     }
     c.level.add_object(b.take("candelabra"));
 }
@@ -283,8 +314,10 @@ void add_chandeliers(Castle& c) {
         b.sphere(centre, 0.09f, 12);
         b.tube(std::array{centre + Vec3(0, 1.28f, 0), Vec3(x, kHallCeiling + 0.02f, centre.z)}, 0.018f, 6);
         b.sphere(centre + Vec3(0, 1.3f, 0), 0.06f, 10);
-        // The lamp shines from the middle of the ring, where no candle is in its way.
-        c.level.add_lamp({"chandelier " + std::to_string(number++), Rgb(1.0f, 0.56f, 0.22f) * 620.0f}, centre + Vec3(0, 0.26f, 0));
+        // One light for the ten candles, inside the cone of rods: so high that the ring's shadow falls on the floor and
+        // not as a bar along the walls.
+        c.level.add_lamp({"chandelier " + std::to_string(number++), Rgb(1.0f, 0.56f, 0.22f) * 620.0f},
+                         centre + Vec3(0, 1.05f, 0));
     }
     c.level.add_object(b.take("chandeliers"));
 }

@@ -9,7 +9,8 @@ namespace daylit::content {
 namespace {
 
 // Shape of a candle or lamp flame, 1 high, foot at 0.
-constexpr std::array<Vec2, 6> kFlame = {Vec2(0, 0), {0.16f, 0.1f}, {0.2f, 0.28f}, {0.12f, 0.6f}, {0.04f, 0.85f}, {0, 1}};
+constexpr std::array<Vec2, 6> kFlame = {Vec2(0, 0),    {0.16f, 0.1f},  {0.2f, 0.28f},
+                                        {0.12f, 0.6f}, {0.04f, 0.85f}, {0, 1}};
 
 }  // namespace
 
@@ -34,7 +35,9 @@ void add_barrel(MeshBuilder& b, const Palette& use, const Mat4& place) {
     b.material(use.iron);
     for (float y : {0.07f, 0.25f, 0.65f, 0.83f}) {
         const float r = 0.3f + 0.07f * std::sin(float(kPi) * y / 0.9f) + 0.002f;
-        b.lathe(std::array{Vec2(r, y - 0.025f), Vec2(r + 0.006f, y - 0.025f), Vec2(r + 0.006f, y + 0.025f), Vec2(r, y + 0.025f)}, 16);
+        b.lathe(std::array{Vec2(r, y - 0.025f), Vec2(r + 0.006f, y - 0.025f), Vec2(r + 0.006f, y + 0.025f),
+                           Vec2(r, y + 0.025f)},
+                16);
     }
     b.at(Mat4(1.0f));
 }
@@ -67,14 +70,15 @@ void add_chest(MeshBuilder& b, const Palette& use, const Mat4& place) {
     }
     b.material(use.brass).bevel_box({-0.06f, 0.33f, 0.305f}, {0.06f, 0.49f, 0.335f}, 0.008f);
     for (float x : {-0.52f, 0.52f})
-        for (float z : {-0.24f, 0.24f}) b.material(use.dark_oak).bevel_box({x - 0.05f, 0, z - 0.05f}, {x + 0.05f, 0.05f, z + 0.05f}, 0.01f);
+        for (float z : {-0.24f, 0.24f})
+            b.material(use.dark_oak).bevel_box({x - 0.05f, 0, z - 0.05f}, {x + 0.05f, 0.05f, z + 0.05f}, 0.01f);
     b.at(Mat4(1.0f));
 }
 
 void add_goblet(MeshBuilder& b, int material, const Vec3& foot, float height) {
-    const Vec2 shape[] = {{0, 0}, {0.3f, 0}, {0.3f, 0.03f}, {0.1f, 0.1f}, {0.06f, 0.2f}, {0.09f, 0.3f}, {0.06f, 0.38f},
-                          {0.1f, 0.46f}, {0.26f, 0.58f}, {0.31f, 0.75f}, {0.3f, 1.0f}, {0.275f, 1.0f}, {0.27f, 0.76f},
-                          {0.2f, 0.6f}, {0, 0.54f}};
+    const Vec2 shape[] = {{0, 0},        {0.3f, 0},      {0.3f, 0.03f},  {0.1f, 0.1f},   {0.06f, 0.2f},
+                          {0.09f, 0.3f}, {0.06f, 0.38f}, {0.1f, 0.46f},  {0.26f, 0.58f}, {0.31f, 0.75f},
+                          {0.3f, 1.0f},  {0.275f, 1.0f}, {0.27f, 0.76f}, {0.2f, 0.6f},   {0, 0.54f}};
     std::vector<Vec2> profile;
     for (const Vec2& p : shape) profile.push_back(p * height);
     b.at(foot).material(material).lathe(profile, 10);
@@ -86,23 +90,38 @@ void add_column(MeshBuilder& b, int material, const Vec3& foot, float r, float h
     const float w = 1.35f * r;
     b.bevel_box({-w, -0.02f, -w}, {w, 0.16f, w}, 0.02f);
     const float top = height - 0.16f;
-    const std::array profile = {Vec2(0, 0.15f), Vec2(1.32f * r, 0.15f), Vec2(1.36f * r, 0.19f), Vec2(1.32f * r, 0.23f),
-                                Vec2(1.14f * r, 0.25f), Vec2(1.18f * r, 0.29f), Vec2(1.12f * r, 0.32f), Vec2(r, 0.34f),
-                                Vec2(0.97f * r, 0.6f * height), Vec2(0.92f * r, top - 0.3f), Vec2(1.0f * r, top - 0.29f),
-                                Vec2(1.0f * r, top - 0.25f), Vec2(0.92f * r, top - 0.24f), Vec2(1.0f * r, top - 0.12f),
-                                Vec2(1.3f * r, top - 0.02f), Vec2(1.36f * r, top + 0.01f), Vec2(0, top + 0.01f)};
+    const std::array profile = {Vec2(0, 0.15f),
+                                Vec2(1.32f * r, 0.15f),
+                                Vec2(1.36f * r, 0.19f),
+                                Vec2(1.32f * r, 0.23f),
+                                Vec2(1.14f * r, 0.25f),
+                                Vec2(1.18f * r, 0.29f),
+                                Vec2(1.12f * r, 0.32f),
+                                Vec2(r, 0.34f),
+                                Vec2(0.97f * r, 0.6f * height),
+                                Vec2(0.92f * r, top - 0.3f),
+                                Vec2(1.0f * r, top - 0.29f),
+                                Vec2(1.0f * r, top - 0.25f),
+                                Vec2(0.92f * r, top - 0.24f),
+                                Vec2(1.0f * r, top - 0.12f),
+                                Vec2(1.3f * r, top - 0.02f),
+                                Vec2(1.36f * r, top + 0.01f),
+                                Vec2(0, top + 0.01f)};
     b.lathe(profile, 18);
     b.bevel_box({-w, top, -w}, {w, height + 0.03f, w}, 0.025f);
     b.at(Mat4(1.0f));
 }
 
 // A cloth with gentle folds, in front of a wall: centre of its top edge, the direction it faces, its size.
-void add_hanging(MeshBuilder& b, const Castle& c, int cloth, const Vec3& top, Facing facing, const Vec2& size, float fold) {
+void add_hanging(MeshBuilder& b, const Castle& c, int cloth, const Vec3& top, Facing facing, const Vec2& size,
+                 float fold) {
     const Palette& use = c.use;
     const Vec2 picture = c.level.surfaces[std::size_t(cloth)].tile;  // shown once, whatever the size
     Opening frame{.origin = top, .facing = facing, .loops = {}};
     b.at(wall_frame(frame)).material(cloth);
-    const auto wave = [=](float s, float t) { return fold * (0.35f + 0.65f * (1.0f - t)) * std::sin(s * 15.0f + 1.2f * t); };
+    const auto wave = [=](float s, float t) {
+        return fold * (0.35f + 0.65f * (1.0f - t)) * std::sin(s * 15.0f + 1.2f * t);
+    };
     const float thick = 0.012f;
     const int columns = 18, rows = 4;
     for (bool back : {false, true})
@@ -179,23 +198,70 @@ void add_teapot(MeshBuilder& b, int material, const Mat4& place, int n) {
     b.lathe(profile, 6 * n);
 
     // Each row: outline across at one of four stations along handle or spout; y is the half width.
-    const Vec3 patches[4][16] = {
-        {{-1.6f, 0, 2.025f}, {-1.6f, -0.3f, 2.025f}, {-1.5f, -0.3f, 2.25f}, {-1.5f, 0, 2.25f},
-         {-2.3f, 0, 2.025f}, {-2.3f, -0.3f, 2.025f}, {-2.5f, -0.3f, 2.25f}, {-2.5f, 0, 2.25f},
-         {-2.7f, 0, 2.025f}, {-2.7f, -0.3f, 2.025f}, {-3.0f, -0.3f, 2.25f}, {-3.0f, 0, 2.25f},
-         {-2.7f, 0, 1.8f}, {-2.7f, -0.3f, 1.8f}, {-3.0f, -0.3f, 1.8f}, {-3.0f, 0, 1.8f}},
-        {{-2.7f, 0, 1.8f}, {-2.7f, -0.3f, 1.8f}, {-3.0f, -0.3f, 1.8f}, {-3.0f, 0, 1.8f},
-         {-2.7f, 0, 1.575f}, {-2.7f, -0.3f, 1.575f}, {-3.0f, -0.3f, 1.35f}, {-3.0f, 0, 1.35f},
-         {-2.5f, 0, 1.125f}, {-2.5f, -0.3f, 1.125f}, {-2.65f, -0.3f, 0.9375f}, {-2.65f, 0, 0.9375f},
-         {-2.0f, 0, 0.9f}, {-2.0f, -0.3f, 0.9f}, {-1.9f, -0.3f, 0.6f}, {-1.9f, 0, 0.6f}},
-        {{1.7f, 0, 1.425f}, {1.7f, -0.66f, 1.425f}, {1.7f, -0.66f, 0.6f}, {1.7f, 0, 0.6f},
-         {2.6f, 0, 1.425f}, {2.6f, -0.66f, 1.425f}, {3.1f, -0.66f, 0.825f}, {3.1f, 0, 0.825f},
-         {2.3f, 0, 2.1f}, {2.3f, -0.25f, 2.1f}, {2.4f, -0.25f, 2.025f}, {2.4f, 0, 2.025f},
-         {2.7f, 0, 2.4f}, {2.7f, -0.25f, 2.4f}, {3.3f, -0.25f, 2.4f}, {3.3f, 0, 2.4f}},
-        {{2.7f, 0, 2.4f}, {2.7f, -0.25f, 2.4f}, {3.3f, -0.25f, 2.4f}, {3.3f, 0, 2.4f},
-         {2.8f, 0, 2.475f}, {2.8f, -0.25f, 2.475f}, {3.525f, -0.25f, 2.49375f}, {3.525f, 0, 2.49375f},
-         {2.9f, 0, 2.475f}, {2.9f, -0.15f, 2.475f}, {3.45f, -0.15f, 2.5125f}, {3.45f, 0, 2.5125f},
-         {2.8f, 0, 2.4f}, {2.8f, -0.15f, 2.4f}, {3.2f, -0.15f, 2.4f}, {3.2f, 0, 2.4f}}};
+    const Vec3 patches[4][16] = {{{-1.6f, 0, 2.025f},
+                                  {-1.6f, -0.3f, 2.025f},
+                                  {-1.5f, -0.3f, 2.25f},
+                                  {-1.5f, 0, 2.25f},
+                                  {-2.3f, 0, 2.025f},
+                                  {-2.3f, -0.3f, 2.025f},
+                                  {-2.5f, -0.3f, 2.25f},
+                                  {-2.5f, 0, 2.25f},
+                                  {-2.7f, 0, 2.025f},
+                                  {-2.7f, -0.3f, 2.025f},
+                                  {-3.0f, -0.3f, 2.25f},
+                                  {-3.0f, 0, 2.25f},
+                                  {-2.7f, 0, 1.8f},
+                                  {-2.7f, -0.3f, 1.8f},
+                                  {-3.0f, -0.3f, 1.8f},
+                                  {-3.0f, 0, 1.8f}},
+                                 {{-2.7f, 0, 1.8f},
+                                  {-2.7f, -0.3f, 1.8f},
+                                  {-3.0f, -0.3f, 1.8f},
+                                  {-3.0f, 0, 1.8f},
+                                  {-2.7f, 0, 1.575f},
+                                  {-2.7f, -0.3f, 1.575f},
+                                  {-3.0f, -0.3f, 1.35f},
+                                  {-3.0f, 0, 1.35f},
+                                  {-2.5f, 0, 1.125f},
+                                  {-2.5f, -0.3f, 1.125f},
+                                  {-2.65f, -0.3f, 0.9375f},
+                                  {-2.65f, 0, 0.9375f},
+                                  {-2.0f, 0, 0.9f},
+                                  {-2.0f, -0.3f, 0.9f},
+                                  {-1.9f, -0.3f, 0.6f},
+                                  {-1.9f, 0, 0.6f}},
+                                 {{1.7f, 0, 1.425f},
+                                  {1.7f, -0.66f, 1.425f},
+                                  {1.7f, -0.66f, 0.6f},
+                                  {1.7f, 0, 0.6f},
+                                  {2.6f, 0, 1.425f},
+                                  {2.6f, -0.66f, 1.425f},
+                                  {3.1f, -0.66f, 0.825f},
+                                  {3.1f, 0, 0.825f},
+                                  {2.3f, 0, 2.1f},
+                                  {2.3f, -0.25f, 2.1f},
+                                  {2.4f, -0.25f, 2.025f},
+                                  {2.4f, 0, 2.025f},
+                                  {2.7f, 0, 2.4f},
+                                  {2.7f, -0.25f, 2.4f},
+                                  {3.3f, -0.25f, 2.4f},
+                                  {3.3f, 0, 2.4f}},
+                                 {{2.7f, 0, 2.4f},
+                                  {2.7f, -0.25f, 2.4f},
+                                  {3.3f, -0.25f, 2.4f},
+                                  {3.3f, 0, 2.4f},
+                                  {2.8f, 0, 2.475f},
+                                  {2.8f, -0.25f, 2.475f},
+                                  {3.525f, -0.25f, 2.49375f},
+                                  {3.525f, 0, 2.49375f},
+                                  {2.9f, 0, 2.475f},
+                                  {2.9f, -0.15f, 2.475f},
+                                  {3.45f, -0.15f, 2.5125f},
+                                  {3.45f, 0, 2.5125f},
+                                  {2.8f, 0, 2.4f},
+                                  {2.8f, -0.15f, 2.4f},
+                                  {3.2f, -0.15f, 2.4f},
+                                  {3.2f, 0, 2.4f}}};
     for (std::size_t k = 0; k < 4; ++k)
         for (bool mirrored : {false, true}) {
             std::array<Vec3, 16> points;

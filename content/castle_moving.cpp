@@ -35,11 +35,13 @@ void add_door(Castle& c) {
     b.material(c.use.dark_oak);
     for (int i = 1; i < 7; ++i) {  // cover strips
         const float x = -width + width * float(i) / 7.0f;
-        for (float z : {-0.5f * thick, 0.5f * thick}) b.bevel_box({x - 0.02f, 0.03f, z - 0.012f}, {x + 0.02f, 2.5f, z + 0.012f}, 0.005f, Mapping::Grain);
+        for (float z : {-0.5f * thick, 0.5f * thick})
+            b.bevel_box({x - 0.02f, 0.03f, z - 0.012f}, {x + 0.02f, 2.5f, z + 0.012f}, 0.005f, Mapping::Grain);
     }
     b.material(c.use.iron);
     for (float y : {0.45f, 1.3f, 2.2f}) {
-        for (float z : {-0.5f * thick, 0.5f * thick}) b.bevel_box({-1.6f, y - 0.04f, z - 0.018f}, {-0.02f, y + 0.04f, z + 0.018f}, 0.006f);
+        for (float z : {-0.5f * thick, 0.5f * thick})
+            b.bevel_box({-1.6f, y - 0.04f, z - 0.018f}, {-0.02f, y + 0.04f, z + 0.018f}, 0.006f);
         b.cylinder({-0.01f, y - 0.1f, 0}, 0.03f, 0.2f, 10);
     }
     for (float z : {-0.5f * thick - 0.03f, 0.5f * thick + 0.03f}) {
@@ -73,10 +75,15 @@ void add_wheel(MeshBuilder& b, const Palette& use, float radius) {
     lying[1] = Vec4(0, 0, 1, 0);
     lying[2] = Vec4(0, -1, 0, 0);
     b.at(lying).material(use.dark_oak);
-    b.lathe(std::array{Vec2(radius - 0.05f, -0.025f), Vec2(radius - 0.008f, -0.025f), Vec2(radius - 0.008f, 0.025f), Vec2(radius - 0.05f, 0.025f), Vec2(radius - 0.05f, -0.025f)}, 28);
-    b.lathe(std::array{Vec2(0, -0.06f), Vec2(0.045f, -0.06f), Vec2(0.055f, 0.0f), Vec2(0.045f, 0.06f), Vec2(0, 0.06f)}, 14);
+    b.lathe(std::array{Vec2(radius - 0.05f, -0.025f), Vec2(radius - 0.008f, -0.025f), Vec2(radius - 0.008f, 0.025f),
+                       Vec2(radius - 0.05f, 0.025f), Vec2(radius - 0.05f, -0.025f)},
+            28);
+    b.lathe(std::array{Vec2(0, -0.06f), Vec2(0.045f, -0.06f), Vec2(0.055f, 0.0f), Vec2(0.045f, 0.06f), Vec2(0, 0.06f)},
+            14);
     b.material(use.iron);
-    b.lathe(std::array{Vec2(radius - 0.009f, -0.027f), Vec2(radius, -0.027f), Vec2(radius, 0.027f), Vec2(radius - 0.009f, 0.027f)}, 28);
+    b.lathe(std::array{Vec2(radius - 0.009f, -0.027f), Vec2(radius, -0.027f), Vec2(radius, 0.027f),
+                       Vec2(radius - 0.009f, 0.027f)},
+            28);
     b.at(Mat4(1.0f)).material(use.dark_oak);
     for (int i = 0; i < 8; ++i) {
         const float a = 0.7854f * float(i);
@@ -90,12 +97,16 @@ void add_cart(Castle& c) {
     const float radius = 0.24f, from = -6.0f, to = 7.5f;
     MeshBuilder b;
     b.material(use.oak);
-    for (int i = 0; i < 5; ++i) b.bevel_box({-0.5f, 0.62f, -0.325f + 0.13f * float(i) + 0.002f}, {0.5f, 0.66f, -0.195f + 0.13f * float(i) - 0.002f}, 0.006f, Mapping::Grain);
+    for (int i = 0; i < 5; ++i)
+        b.bevel_box({-0.5f, 0.62f, -0.325f + 0.13f * float(i) + 0.002f},
+                    {0.5f, 0.66f, -0.195f + 0.13f * float(i) - 0.002f}, 0.006f, Mapping::Grain);
     b.material(use.dark_oak);
     for (float z : {-0.3f, 0.3f}) {
         b.bevel_box({-0.52f, 0.54f, z - 0.03f}, {0.52f, 0.625f, z + 0.03f}, 0.008f, Mapping::Grain);
-        for (float x : {-0.33f, 0.33f}) b.bevel_box({x - 0.035f, 0.2f, z - 0.025f}, {x + 0.035f, 0.545f, z + 0.025f}, 0.008f, Mapping::Grain);
-        b.bevel_box({-0.46f, 0.655f, z + (z < 0 ? -0.02f : 0.0f)}, {0.46f, 0.7f, z + (z < 0 ? 0.0f : 0.02f)}, 0.006f, Mapping::Grain);
+        for (float x : {-0.33f, 0.33f})
+            b.bevel_box({x - 0.035f, 0.2f, z - 0.025f}, {x + 0.035f, 0.545f, z + 0.025f}, 0.008f, Mapping::Grain);
+        b.bevel_box({-0.46f, 0.655f, z + (z < 0 ? -0.02f : 0.0f)}, {0.46f, 0.7f, z + (z < 0 ? 0.0f : 0.02f)}, 0.006f,
+                    Mapping::Grain);
         b.beam({-0.5f, 0.6f, z}, {-0.82f, 0.86f, z}, 0.04f, 0.05f);
     }
     b.beam({-0.81f, 0.85f, -0.34f}, {-0.81f, 0.85f, 0.34f}, 0.045f, 0.045f);
@@ -104,13 +115,17 @@ void add_cart(Castle& c) {
     // The service: teapot, two cups on a tray.
     b.material(use.silver);
     b.at(Vec3(0.02f, 0.66f, 0));
-    b.lathe(std::array{Vec2(0, 0.0f), Vec2(0.25f, 0.0f), Vec2(0.27f, 0.02f), Vec2(0.262f, 0.02f), Vec2(0.245f, 0.008f), Vec2(0, 0.008f)}, 32);
+    b.lathe(std::array{Vec2(0, 0.0f), Vec2(0.25f, 0.0f), Vec2(0.27f, 0.02f), Vec2(0.262f, 0.02f), Vec2(0.245f, 0.008f),
+                       Vec2(0, 0.008f)},
+            32);
     b.at(Mat4(1.0f));
     const Mat4 pot = placed({-0.02f, 0.669f, 0.02f}, -0.6f, 0.085f);
     add_teapot(b, use.brass, pot, 6);
     for (float x : {0.16f, -0.02f}) {
         b.at(Vec3(x, 0.668f, x > 0 ? 0.14f : -0.19f)).material(use.earthenware);
-        b.lathe(std::array{Vec2(0, 0), Vec2(0.02f, 0), Vec2(0.035f, 0.03f), Vec2(0.038f, 0.055f), Vec2(0.034f, 0.055f), Vec2(0.03f, 0.03f), Vec2(0, 0.01f)}, 16);
+        b.lathe(std::array{Vec2(0, 0), Vec2(0.02f, 0), Vec2(0.035f, 0.03f), Vec2(0.038f, 0.055f), Vec2(0.034f, 0.055f),
+                           Vec2(0.03f, 0.03f), Vec2(0, 0.01f)},
+                16);
     }
     LevelNode cart;
     cart.name = "rolling cart";

@@ -25,8 +25,10 @@ void add_roof(MeshBuilder& b, const Palette& use, const Roof& r) {
     const float slope = r.rise / half, drop = overhang * slope;
     const auto p = [&](float u, float y, float v) { return r.along_x ? Vec3(u, y, v) : Vec3(v, y, u); };
     const auto quad = [&](Vec3 a, Vec3 q, Vec3 c, Vec3 d, bool flip) {
-        if (flip != r.along_x) b.flat_quad(a, q, c, d);
-        else b.flat_quad(d, c, q, a);
+        if (flip != r.along_x)
+            b.flat_quad(a, q, c, d);
+        else
+            b.flat_quad(d, c, q, a);
     };
     for (int side : {-1, 1}) {
         const float edge = middle + float(side) * (half + overhang), wall = middle + float(side) * (half - 0.05f);
@@ -36,8 +38,10 @@ void add_roof(MeshBuilder& b, const Palette& use, const Roof& r) {
         const Vec3 a = p(u0, y, edge), q = p(u1, y, edge), c = p(u1, ridge, middle), d = p(u0, ridge, middle);
         const float fall = glm::length(d - a);
         b.material(use.roof);
-        if (flip == r.along_x) b.picture_quad(a, q, c, d, {u1 - u0, fall});
-        else b.picture_quad(q, a, d, c, {u1 - u0, fall});
+        if (flip == r.along_x)
+            b.picture_quad(a, q, c, d, {u1 - u0, fall});
+        else
+            b.picture_quad(q, a, d, c, {u1 - u0, fall});
         b.material(use.oak);
         quad(p(u0, y - thick, edge), p(u1, y - thick, edge), q, a, !flip);
         quad(p(u0, y - thick, wall), p(u1, y - thick, wall), p(u1, y - thick, edge), p(u0, y - thick, edge), !flip);
@@ -51,8 +55,10 @@ void add_roof(MeshBuilder& b, const Palette& use, const Roof& r) {
         if (!(end ? r.end_high : r.end_low)) continue;
         const float u = end ? u1 : u0, y = r.eaves - 0.3f;
         const Vec3 a = p(u, y, v0), q = p(u, y, v1), c = p(u, r.eaves + r.rise + 0.15f, middle);
-        if ((end == 1) == r.along_x) b.flat_triangle(q, a, c);
-        else b.flat_triangle(a, q, c);
+        if ((end == 1) == r.along_x)
+            b.flat_triangle(q, a, c);
+        else
+            b.flat_triangle(a, q, c);
     }
 }
 
@@ -68,15 +74,26 @@ void fill_stepped_gable(Castle& c, float x0, float x1, float z0, float z1, float
 }
 
 // A window that only shows: a niche with dark glass and lattice, in a wall with nothing behind it.
-void add_blind_window(Castle& c, MeshBuilder& b, const Vec3& foot, Facing facing, Head head, float width, float spring) {
-    Opening o{.origin = foot, .facing = facing, .thickness = 0.35f,
+void add_blind_window(Castle& c, MeshBuilder& b, const Vec3& foot, Facing facing, Head head, float width,
+                      float spring) {
+    Opening o{.origin = foot,
+              .facing = facing,
+              .thickness = 0.35f,
               .loops = {{0.0f, outline(head, width, 0, spring)}, {0.35f, outline(head, width - 0.16f, 0.06f, spring)}},
-              .room = c.open_air, .outer_wall = c.use.brick, .inner_wall = c.use.brick, .reveal = c.use.ashlar,
+              .room = c.open_air,
+              .outer_wall = c.use.brick,
+              .inner_wall = c.use.brick,
+              .reveal = c.use.ashlar,
               .sill = c.use.ashlar};
     add_opening(c.blocks, b, o);
     add_surround(b, o, false, 0.16f, 0.05f, c.use.ashlar);
     add_tracery(b, o, o.loops.back(), Head::Flat, spring + head_height(head, width - 0.16f),
-                {.depth = 0.3f, .lights = width > 1.0f ? 2 : 1, .transoms = 2, .bar = 0.035f, .sides = 4, .bar_material = c.use.ashlar});
+                {.depth = 0.3f,
+                 .lights = width > 1.0f ? 2 : 1,
+                 .transoms = 2,
+                 .bar = 0.035f,
+                 .sides = 4,
+                 .bar_material = c.use.ashlar});
     b.at(wall_frame(o)).material(c.use.dark_glass);
     std::vector<Vec3> pane;
     for (const Vec2& p : o.loops.back().points) pane.emplace_back(p, -0.35f);
@@ -86,12 +103,50 @@ void add_blind_window(Castle& c, MeshBuilder& b, const Vec3& foot, Facing facing
     b.at(Mat4(1.0f));
 }
 
+// A shut oak door in a shallow niche.
+void add_blind_door(Castle& c, MeshBuilder& b, const Vec3& foot, Facing facing, int wall) {
+    const float width = 1.3f, spring = 1.9f, depth = 0.22f;
+    const std::vector<Vec2> shape = outline(Head::Round, width, 0, spring);
+    Opening o{.origin = foot,
+              .facing = facing,
+              .thickness = depth,
+              .loops = {{0.0f, shape}, {depth, shape}},
+              .room = c.open_air,
+              .outer_wall = wall,
+              .inner_wall = wall,
+              .reveal = c.use.ashlar,
+              .sill = c.use.ashlar};
+    add_opening(c.blocks, b, o);
+    add_surround(b, o, false, 0.2f, 0.06f, c.use.ashlar);
+    b.at(wall_frame(o)).material(c.use.oak);
+    std::vector<std::uint32_t> v;
+    for (const Vec2& p : shape) v.push_back(b.vertex({p.x, p.y, -depth}, {0, 0, 1}, {p.y, p.x}));
+    for (std::size_t i = 1; i + 1 < v.size(); ++i) b.triangle(v[0], v[i], v[i + 1]);
+    b.material(c.use.dark_oak);
+    for (int i = 1; i < 5; ++i) {
+        const float x = width * (float(i) / 5.0f - 0.5f);
+        b.bevel_box({x - 0.02f, 0.02f, -depth - 0.01f}, {x + 0.02f, spring + 0.35f, -depth + 0.02f}, 0.006f,
+                    Mapping::Grain);
+    }
+    b.material(c.use.iron);
+    for (float y : {0.4f, 1.7f})
+        b.bevel_box({-0.5f * width, y - 0.035f, -depth - 0.01f}, {0.42f * width, y + 0.035f, -depth + 0.03f}, 0.006f);
+    b.sphere({0.4f * width, 1.05f, -depth + 0.05f}, 0.035f, 10);
+    b.at(Mat4(1.0f));
+}
+
 // A door opening with an ashlar frame on both sides; the floor of the opening is its bottom.
 Opening cut_door(Castle& c, MeshBuilder& b, const Vec3& foot, Facing facing, float thickness, float width, float spring,
                  Head head, int room, int outer, int inner, int floor) {
-    Opening o{.origin = foot, .facing = facing, .thickness = thickness,
+    Opening o{.origin = foot,
+              .facing = facing,
+              .thickness = thickness,
               .loops = {{0.0f, outline(head, width, 0, spring)}, {thickness, outline(head, width, 0, spring)}},
-              .room = room, .outer_wall = outer, .inner_wall = inner, .reveal = c.use.ashlar, .sill = floor};
+              .room = room,
+              .outer_wall = outer,
+              .inner_wall = inner,
+              .reveal = c.use.ashlar,
+              .sill = floor};
     add_opening(c.blocks, b, o);
     add_surround(b, o, false, 0.26f, 0.07f, c.use.ashlar);
     add_surround(b, o, true, 0.2f, 0.05f, c.use.ashlar);
@@ -100,19 +155,28 @@ Opening cut_door(Castle& c, MeshBuilder& b, const Vec3& foot, Facing facing, flo
 
 void add_hall_window(Castle& c, const Vec3& foot, Facing facing, float width) {
     const float spring = 5.0f, wide = width + 0.9f;
-    Opening o{.origin = foot, .facing = facing, .thickness = 1.2f,
+    Opening o{.origin = foot,
+              .facing = facing,
+              .thickness = 1.2f,
               .loops = {{0.0f, outline(Head::Pointed, width + 0.25f, 0.0f, spring)},
                         {0.3f, outline(Head::Pointed, width, 0.08f, spring)},
                         {0.5f, outline(Head::Pointed, width, 0.08f, spring)},
                         {1.2f, outline(Head::Pointed, wide, -0.35f, spring - 0.4f)}},
-              .room = c.hall, .outer_wall = c.use.brick, .inner_wall = c.use.plaster, .reveal = c.use.ashlar,
+              .room = c.hall,
+              .outer_wall = c.use.brick,
+              .inner_wall = c.use.plaster,
+              .reveal = c.use.ashlar,
               .sill = c.use.ashlar};
     MeshBuilder& b = c.hall_trim;
     add_opening(c.blocks, b, o);
     add_surround(b, o, false, 0.22f, 0.07f, c.use.ashlar);
     add_surround(b, o, true, 0.16f, 0.05f, c.use.ashlar);
     add_tracery(b, o, o.loops[1], Head::Pointed, spring,
-                {.depth = 0.4f, .lights = 2, .transoms = 3, .bar = 0.06f, .bar_material = c.use.ashlar,
+                {.depth = 0.4f,
+                 .lights = 2,
+                 .transoms = 3,
+                 .bar = 0.06f,
+                 .bar_material = c.use.ashlar,
                  .sheet_material = c.use.lattice});
     b.at(wall_frame(o)).material(c.use.ashlar);
     b.bevel_box({-0.5f * width - 0.35f, -0.16f, -0.05f}, {0.5f * width + 0.35f, -0.005f, 0.16f}, 0.03f);
@@ -128,8 +192,10 @@ void build_grounds(Castle& c) {
     // The moat, a ring 11 m wide with a bank beyond it that ends the view.
     const auto ring = [&](float inner, float outer, float low, float high, int solid) {
         const auto put = [&](const Vec3& a, const Vec3& b) {
-            if (solid < 0) g.carve(a, b, c.open_air);
-            else g.fill(a, b, solid);
+            if (solid < 0)
+                g.carve(a, b, c.open_air);
+            else
+                g.fill(a, b, solid);
         };
         put({-outer, low, -outer}, {outer, high, -inner});
         put({-outer, low, inner}, {outer, high, outer});
@@ -159,12 +225,13 @@ void build_courtyard(Castle& c) {
     g.fill({-28, -0.3f, -24}, {27.4f, 0, 27.2f}, c.gravel);  // around the castle
     g.fill({-40, -0.3f, -6.2f}, {-28, 0, -2.8f}, c.gravel);  // the way to the gate
     g.fill({-14, -0.3f, -14}, {14, 0, 11}, c.paving);
-    g.fill({-14, 0, -15.2f}, {24.4f, 8.4f, -10}, c.walls);   // north wing
-    g.fill({-21, 0, -10}, {-14, 7.4f, 11}, c.walls);          // west wing
-    g.fill({14, 0, -10}, {24.4f, 7.4f, 11}, c.walls);         // east wing
-    g.fill({-25, 0, -21}, {-14, 26, -10}, c.walls);           // the giant's tower
+    g.fill({-14, 0, -15.2f}, {24.4f, 8.4f, -10}, c.walls);  // north wing
+    g.fill({-21, 0, -10}, {-14, 7.4f, 11}, c.walls);        // west wing
+    g.fill({14, 0, -10}, {24.4f, 7.4f, 11}, c.walls);       // east wing
+    g.fill({-25, 0, -21}, {-14, 26, -10}, c.walls);         // the giant's tower
     // A string course all round, at the height of the upper floor.
-    for (const auto& [low, high] : {std::pair{Vec2(-14, -10), Vec2(14, -9.88f)}, {Vec2(-14.0f, -9.88f), Vec2(-13.88f, 11)},
+    for (const auto& [low, high] : {std::pair{Vec2(-14, -10), Vec2(14, -9.88f)},
+                                    {Vec2(-14.0f, -9.88f), Vec2(-13.88f, 11)},
                                     {Vec2(13.88f, -9.88f), Vec2(14, 11)}})
         g.fill({low.x, 4.75f, low.y}, {high.x, 4.95f, high.y}, c.stone);
     // Tower: string courses, cornice, parapet with merlons.
@@ -187,12 +254,20 @@ void build_courtyard(Castle& c) {
     for (int bay = 0; bay < 7; ++bay) {
         const float x = -12.0f + 4.0f * float(bay);
         const std::vector<Vec2> arch = outline(Head::Round, 3.4f, 0, 0.2f);
-        Opening o{.origin = {x, 2.4f, -10}, .facing = Facing::South, .thickness = 0.6f,
-                  .loops = {{0.0f, arch}, {0.6f, arch}}, .room = c.arcade, .outer_wall = c.use.brick,
-                  .inner_wall = c.use.plaster, .reveal = c.use.ashlar, .sill = c.use.ashlar, .open_bottom = true};
+        Opening o{.origin = {x, 2.4f, -10},
+                  .facing = Facing::South,
+                  .thickness = 0.6f,
+                  .loops = {{0.0f, arch}, {0.6f, arch}},
+                  .room = c.arcade,
+                  .outer_wall = c.use.brick,
+                  .inner_wall = c.use.plaster,
+                  .reveal = c.use.ashlar,
+                  .sill = c.use.ashlar,
+                  .open_bottom = true};
         add_opening(g, b, o);
         add_surround(b, o, false, 0.24f, 0.06f, c.use.ashlar);
     }
+    for (float x : {-8.0f, 0.0f, 8.0f}) add_blind_door(c, b, {x, 0, -14}, Facing::South, c.use.plaster);
     for (int i = 0; i <= 7; ++i) {
         const float x = std::clamp(-14.0f + 4.0f * float(i), -13.85f, 13.85f);
         add_column(b, c.use.ashlar, {x, 0, -10.3f}, 0.24f, 2.4f);
@@ -211,7 +286,8 @@ void build_courtyard(Castle& c) {
     for (float y : {10.8f, 18.2f})
         for (float t : {-17.9f, -13.1f}) {
             add_blind_window(c, b, {-14, y, t}, Facing::East, Head::Round, 1.3f, 2.2f);
-            add_blind_window(c, b, {t - 1.6f - (t < -15 ? 4.0f : 3.9f), y, -10}, Facing::South, Head::Round, 1.3f, 2.2f);
+            add_blind_window(c, b, {t - 1.6f - (t < -15 ? 4.0f : 3.9f), y, -10}, Facing::South, Head::Round, 1.3f,
+                             2.2f);
             add_blind_window(c, b, {-25, y, t}, Facing::West, Head::Round, 1.3f, 2.2f);
         }
 
@@ -220,11 +296,14 @@ void build_courtyard(Castle& c) {
     fill_stepped_gable(c, -15.2f, -14.4f, 11, 24.2f, 10.2f, 6.4f);
     MeshBuilder roofs;
     add_roof(roofs, c.use, {.low = {-14.5f, 11}, .high = {14.5f, 24.2f}, .eaves = 10.2f, .rise = 6.4f});
-    add_roof(roofs, c.use, {.low = {-14.2f, -15.2f}, .high = {24.4f, -10}, .eaves = 8.4f, .rise = 3.4f, .end_high = true});
-    add_roof(roofs, c.use, {.low = {-21, -10.2f}, .high = {-14, 11}, .eaves = 7.4f, .rise = 3.6f, .along_x = false,
-                            .end_high = true});
-    add_roof(roofs, c.use, {.low = {14, -10.2f}, .high = {24.4f, 11}, .eaves = 7.4f, .rise = 4.4f, .along_x = false,
-                            .end_high = true});
+    add_roof(roofs, c.use,
+             {.low = {-14.2f, -15.2f}, .high = {24.4f, -10}, .eaves = 8.4f, .rise = 3.4f, .end_high = true});
+    add_roof(
+        roofs, c.use,
+        {.low = {-21, -10.2f}, .high = {-14, 11}, .eaves = 7.4f, .rise = 3.6f, .along_x = false, .end_high = true});
+    add_roof(
+        roofs, c.use,
+        {.low = {14, -10.2f}, .high = {24.4f, 11}, .eaves = 7.4f, .rise = 4.4f, .along_x = false, .end_high = true});
     c.level.add_object(roofs.take("roofs"));
 }
 
@@ -255,10 +334,15 @@ void build_treasury(Castle& c) {
     cut_door(c, b, {14, kHallFloor, 5.5f}, Facing::West, 1.2f, 1.4f, 1.9f, Head::Round, c.treasury, c.use.brick,
              c.use.plaster, c.use.ashlar);
     // An oculus in the south wall whose shaft falls inwards, so that the noon sun reaches the floor.
-    Opening oculus{.origin = {19.4f, 0, 11}, .facing = Facing::South, .thickness = 1.2f,
+    Opening oculus{.origin = {19.4f, 0, 11},
+                   .facing = Facing::South,
+                   .thickness = 1.2f,
                    .loops = {{0.0f, circle_outline(0.75f, 5.0f)}, {1.2f, circle_outline(1.15f, 3.7f)}},
-                   .room = c.treasury, .outer_wall = c.use.brick, .inner_wall = c.use.plaster,
-                   .reveal = c.use.ashlar, .sill = c.use.ashlar};
+                   .room = c.treasury,
+                   .outer_wall = c.use.brick,
+                   .inner_wall = c.use.plaster,
+                   .reveal = c.use.ashlar,
+                   .sill = c.use.ashlar};
     add_opening(g, b, oculus);
     add_surround(b, oculus, false, 0.2f, 0.06f, c.use.ashlar);
     b.at(wall_frame(oculus)).material(c.use.iron);
@@ -268,25 +352,35 @@ void build_treasury(Castle& c) {
     }
     b.at(Mat4(1.0f));
     // A slit to the east with tinted panes for the morning.
-    Opening slit{.origin = {24.4f, 2.2f, 4.6f}, .facing = Facing::East, .thickness = 1.2f,
-                 .loops = {{0.0f, outline(Head::Round, 0.5f, 0, 1.6f)}, {1.2f, outline(Head::Round, 1.3f, -0.5f, 1.4f)}},
-                 .room = c.treasury, .outer_wall = c.use.brick, .inner_wall = c.use.plaster, .reveal = c.use.ashlar,
-                 .sill = c.use.ashlar};
+    Opening slit{
+        .origin = {24.4f, 2.2f, 4.6f},
+        .facing = Facing::East,
+        .thickness = 1.2f,
+        .loops = {{0.0f, outline(Head::Round, 0.5f, 0, 1.6f)}, {1.2f, outline(Head::Round, 1.3f, -0.5f, 1.4f)}},
+        .room = c.treasury,
+        .outer_wall = c.use.brick,
+        .inner_wall = c.use.plaster,
+        .reveal = c.use.ashlar,
+        .sill = c.use.ashlar};
     add_opening(g, b, slit);
     add_surround(b, slit, false, 0.16f, 0.05f, c.use.ashlar);
     add_tracery(b, slit, slit.loops[0], Head::Flat, 1.6f,
-                {.depth = 0.1f, .lights = 2, .transoms = 4, .bar = 0.015f, .bar_material = c.use.iron,
+                {.depth = 0.1f,
+                 .lights = 2,
+                 .transoms = 4,
+                 .bar = 0.015f,
+                 .bar_material = c.use.iron,
                  .sheet_material = c.use.pane});
 }
 
 void build_cellar(Castle& c) {
     Blocks& g = c.blocks;
     // Corridors 1.6 m, walls 0.6 m; north on top. The stairs come down into the first open cell of the eighth row.
-    const std::vector<std::string> plan = {
-        "###################", "#...#.............#", "#.#.#.#####.#####.#", "#.#.#.#.#...#.....#",
-        "#.#.#.#.#.###.#####", "#.#...#.#...#.....#", "#####.#.###.#####.#", "#...#.....#.#...#.#",
-        "###.#.#####.#.#.#.#", "###.#.#...#.#.#.#.#", "###.###.#.#.#.#.#.#", "###.....#...#.#...#",
-        "#############.#####", "###...............#", "###################"};
+    const std::vector<std::string> plan = {"###################", "#...#.............#", "#.#.#.#####.#####.#",
+                                           "#.#.#.#.#...#.....#", "#.#.#.#.#.###.#####", "#.#...#.#...#.....#",
+                                           "#####.#.###.#####.#", "#...#.....#.#...#.#", "###.#.#####.#.#.#.#",
+                                           "###.#.#...#.#.#.#.#", "###.###.#.#.#.#.#.#", "###.....#...#.#...#",
+                                           "#############.#####", "###...............#", "###################"};
     const float corridor = 1.6f, wall = 0.6f, x0 = -14.6f, z0 = -8.2f;
     const auto line = [&](float start, std::size_t i) {
         return start + float(i / 2) * (corridor + wall) + (i % 2 ? wall : 0.0f);

@@ -8,26 +8,50 @@
 namespace daylit::content {
 namespace {
 
-enum Joint { kHips, kSpine, kChest, kHead, kArmL, kForearmL, kHandL, kArmR, kForearmR, kHandR, kThighL, kShinL, kFootL,
-             kThighR, kShinR, kFootR, kJoints };
+enum Joint {
+    kHips,
+    kSpine,
+    kChest,
+    kHead,
+    kArmL,
+    kForearmL,
+    kHandL,
+    kArmR,
+    kForearmR,
+    kHandR,
+    kThighL,
+    kShinL,
+    kFootL,
+    kThighR,
+    kShinR,
+    kFootR,
+    kJoints
+};
 
 // Rest pose of a man of 1.76 m, facing +Z; joint heads in metres. His left is +X.
-constexpr std::array<int, kJoints> kParent = {-1, kHips, kSpine, kChest, kChest, kArmL, kForearmL, kChest, kArmR, kForearmR,
-                                              kHips, kThighL, kShinL, kHips, kThighR, kShinR};
-const std::array<Vec3, kJoints> kRest = {Vec3(0, 0.95f, 0), {0, 1.08f, 0}, {0, 1.28f, 0}, {0, 1.52f, 0.01f},
-                                         {0.19f, 1.43f, 0}, {0.235f, 1.14f, -0.01f}, {0.25f, 0.89f, 0.02f},
-                                         {-0.19f, 1.43f, 0}, {-0.235f, 1.14f, -0.01f}, {-0.25f, 0.89f, 0.02f},
-                                         {0.095f, 0.92f, 0}, {0.1f, 0.5f, 0.01f}, {0.1f, 0.09f, -0.02f},
-                                         {-0.095f, 0.92f, 0}, {-0.1f, 0.5f, 0.01f}, {-0.1f, 0.09f, -0.02f}};
-const std::array<const char*, kJoints> kNames = {"hips", "spine", "chest", "head", "arm left", "forearm left", "hand left",
-                                                 "arm right", "forearm right", "hand right", "thigh left", "shin left",
-                                                 "foot left", "thigh right", "shin right", "foot right"};
+constexpr std::array<int, kJoints> kParent = {-1,    kHips,     kSpine, kChest,  kChest, kArmL, kForearmL, kChest,
+                                              kArmR, kForearmR, kHips,  kThighL, kShinL, kHips, kThighR,   kShinR};
+const std::array<Vec3, kJoints> kRest = {
+    Vec3(0, 0.95f, 0),        {0, 1.08f, 0},           {0, 1.28f, 0},         {0, 1.52f, 0.01f},
+    {0.19f, 1.43f, 0},        {0.235f, 1.14f, -0.01f}, {0.25f, 0.89f, 0.02f}, {-0.19f, 1.43f, 0},
+    {-0.235f, 1.14f, -0.01f}, {-0.25f, 0.89f, 0.02f},  {0.095f, 0.92f, 0},    {0.1f, 0.5f, 0.01f},
+    {0.1f, 0.09f, -0.02f},    {-0.095f, 0.92f, 0},     {-0.1f, 0.5f, 0.01f},  {-0.1f, 0.09f, -0.02f}};
+const std::array<const char*, kJoints> kNames = {
+    "hips",          "spine",      "chest",      "head",      "arm left",  "forearm left", "hand left",  "arm right",
+    "forearm right", "hand right", "thigh left", "shin left", "foot left", "thigh right",  "shin right", "foot right"};
 
 enum Cloth { kTunic, kSkin, kHair, kHose, kLeather, kHood };
 
 Lump lump(const Vec3& a, const Vec3& b, float ra, float rb, int joint, int material, float blend = 0.03f,
           const Vec3& squash = Vec3(1.0f)) {
-    return {.from = a, .to = b, .radius_from = ra, .radius_to = rb, .blend = blend, .joint = joint, .material = material, .squash = squash};
+    return {.from = a,
+            .to = b,
+            .radius_from = ra,
+            .radius_to = rb,
+            .blend = blend,
+            .joint = joint,
+            .material = material,
+            .squash = squash};
 }
 
 Sculpture townsman() {
@@ -51,11 +75,13 @@ Sculpture townsman() {
         l.push_back(lump(at(0.165f, 1.42f, 0), at(0.2f, 1.4f, 0), 0.075f, 0.07f, arm, kTunic, 0.04f));
         l.push_back(lump(at(0.2f, 1.4f, 0), at(0.235f, 1.14f, -0.01f), 0.064f, 0.052f, arm, kTunic, 0.03f));
         l.push_back(lump(at(0.235f, 1.14f, -0.01f), at(0.248f, 0.93f, 0.015f), 0.052f, 0.05f, forearm, kTunic, 0.03f));
-        l.push_back(lump(at(0.249f, 0.9f, 0.02f), at(0.248f, 0.81f, 0.035f), 0.034f, 0.03f, hand, kSkin, 0.012f, {0.75f, 1, 1.2f}));
+        l.push_back(lump(at(0.249f, 0.9f, 0.02f), at(0.248f, 0.81f, 0.035f), 0.034f, 0.03f, hand, kSkin, 0.012f,
+                         {0.75f, 1, 1.2f}));
         l.push_back(lump(at(0.235f, 0.88f, 0.04f), at(0.225f, 0.83f, 0.06f), 0.014f, 0.011f, hand, kSkin, 0.012f));
     }
     // Belt, neck, head, nose, hair, and a hood lying on the shoulders.
-    l.push_back(lump({0, 1.035f, 0.005f}, {0, 1.06f, 0.005f}, 0.16f, 0.16f, kSpine, kLeather, 0.01f, {1.09f, 1, 0.88f}));
+    l.push_back(
+        lump({0, 1.035f, 0.005f}, {0, 1.06f, 0.005f}, 0.16f, 0.16f, kSpine, kLeather, 0.01f, {1.09f, 1, 0.88f}));
     l.push_back(lump({0, 1.46f, 0}, {0, 1.55f, 0.012f}, 0.062f, 0.055f, kHead, kSkin, 0.03f));
     l.push_back(lump({0, 1.655f, 0.01f}, {0, 1.665f, 0.012f}, 0.1f, 0.098f, kHead, kSkin, 0.03f, {0.86f, 1.12f, 1.0f}));
     l.push_back(lump({0, 1.585f, 0.055f}, {0, 1.6f, 0.05f}, 0.042f, 0.05f, kHead, kSkin, 0.03f));
@@ -72,7 +98,8 @@ Vec4 quaternion(const Vec3& axis, float angle) {
 }
 
 // One cycle is two steps; phase 0 is the left foot's heel strike. Angles in radians about +X: positive swings a limb
-// back (towards -Z). The curves follow the shape of measured gait (Perry 1992): knee flexes in swing and a little in stance.
+// back (towards -Z). The curves follow the shape of measured gait (Perry 1992): knee flexes in swing and a little in
+// stance.
 void add_walk_cycle(Level& level, const std::vector<int>& joints, float period) {
     LevelAnimation walk{"walk", {}};
     const int keys = 24;
@@ -93,7 +120,8 @@ void add_walk_cycle(Level& level, const std::vector<int>& joints, float period) 
         turn(side ? kThighR : kThighL, x, [=](double p) { return -0.42 * std::cos(p + shift) - 0.04; });
         turn(side ? kShinR : kShinL, x, [=](double p) {
             const double q = p + shift;
-            const double swing = std::exp(3.2 * (std::cos(q - 4.6) - 1.0)), stance = std::exp(5.0 * (std::cos(q - 0.75) - 1.0));
+            const double swing = std::exp(3.2 * (std::cos(q - 4.6) - 1.0)),
+                         stance = std::exp(5.0 * (std::cos(q - 0.75) - 1.0));
             return 0.06 + 0.95 * swing + 0.2 * stance;
         });
         turn(side ? kFootR : kFootL, x, [=](double p) {
@@ -132,7 +160,8 @@ void add_way(Level& level, int node, float speed) {
     }
     for (int i = 0; i <= steps; ++i) {
         const float t = float(i) / steps, a = float(kPi) * t;
-        key(west + straight + bend * (1.0f + t), {half + radius * std::sin(a), 0, middle_z - radius * std::cos(a)}, -3.0f * quarter - a);
+        key(west + straight + bend * (1.0f + t), {half + radius * std::sin(a), 0, middle_z - radius * std::cos(a)},
+            -3.0f * quarter - a);
     }
     key(2.0f * (straight + bend), {start_x, 0, middle_z + radius}, -5.0f * quarter);
     level.animations.push_back(way);
@@ -143,8 +172,16 @@ void add_way(Level& level, int node, float speed) {
 LevelMesh brass_knight(int material) {
     Sculpture s;
     auto& l = s.lumps;
-    const auto add = [&](const Vec3& a, const Vec3& b, float ra, float rb, float blend = 0.02f, const Vec3& squash = Vec3(1.0f)) {
-        l.push_back({.from = a, .to = b, .radius_from = ra, .radius_to = rb, .blend = blend, .joint = 0, .material = 0, .squash = squash});
+    const auto add = [&](const Vec3& a, const Vec3& b, float ra, float rb, float blend = 0.02f,
+                         const Vec3& squash = Vec3(1.0f)) {
+        l.push_back({.from = a,
+                     .to = b,
+                     .radius_from = ra,
+                     .radius_to = rb,
+                     .blend = blend,
+                     .joint = 0,
+                     .material = 0,
+                     .squash = squash});
     };
     // Legs astride, one knee eased; surcoat, breast, arms on the pommel of a sword set point down before him.
     add({0.0f, 0.64f, 0}, {0, 0.72f, 0}, 0.115f, 0.1f, 0.0f, {1.1f, 1, 0.85f});
@@ -153,14 +190,14 @@ LevelMesh brass_knight(int material) {
     for (float side : {1.0f, -1.0f}) {
         const auto at = [side](float x, float y, float z) { return Vec3(side * x, y, z); };
         const float ease = side > 0 ? 0.045f : 0.0f;
-        add(at(0.06f, 0.62f, 0), at(0.085f, 0.42f, 0.01f + ease), 0.098f, 0.085f, 0.04f);   // skirt of the surcoat
+        add(at(0.06f, 0.62f, 0), at(0.085f, 0.42f, 0.01f + ease), 0.098f, 0.085f, 0.04f);  // skirt of the surcoat
         add(at(0.082f, 0.42f, 0.01f + ease), at(0.085f, 0.34f, 0.01f + ease), 0.056f, 0.05f, 0.012f);
         add(at(0.085f, 0.345f, 0.03f + ease), at(0.085f, 0.345f, 0.03f + ease), 0.046f, 0.046f, 0.012f);  // knee cop
         add(at(0.088f, 0.33f, 0.005f + ease), at(0.1f, 0.1f, -0.015f + ease), 0.05f, 0.034f, 0.02f);
         add(at(0.1f, 0.06f, -0.02f + ease), at(0.115f, 0.045f, 0.1f + ease), 0.04f, 0.026f, 0.02f);
-        add(at(0.155f, 1.02f, 0), at(0.165f, 1.0f, 0), 0.066f, 0.06f, 0.02f);               // pauldron
+        add(at(0.155f, 1.02f, 0), at(0.165f, 1.0f, 0), 0.066f, 0.06f, 0.02f);  // pauldron
         add(at(0.165f, 0.99f, 0), at(0.2f, 0.83f, 0.02f), 0.048f, 0.042f, 0.015f);
-        add(at(0.2f, 0.825f, 0.015f), at(0.2f, 0.825f, 0.015f), 0.05f, 0.05f, 0.01f);      // elbow
+        add(at(0.2f, 0.825f, 0.015f), at(0.2f, 0.825f, 0.015f), 0.05f, 0.05f, 0.01f);  // elbow
         add(at(0.198f, 0.82f, 0.025f), at(0.04f, 0.735f, 0.165f), 0.04f, 0.032f, 0.015f);
         add(at(0.03f, 0.735f, 0.17f), at(0.0f, 0.72f, 0.175f), 0.034f, 0.03f, 0.015f);
     }
@@ -202,7 +239,9 @@ void add_walker(Castle& c) {
     const Palette& use = c.use;
     LevelNode body;
     body.name = "figure body";
-    body.mesh = level.add_mesh(polygonise(townsman(), 0.025f, {use.blue_wool, use.skin, use.hair, use.wool, use.leather, use.red_wool}, true, "townsman"));
+    body.mesh = level.add_mesh(polygonise(townsman(), 0.025f,
+                                          {use.blue_wool, use.skin, use.hair, use.wool, use.leather, use.red_wool},
+                                          true, "townsman"));
     body.skin = int(level.skins.size()) - 1;
     level.add_node(body, way);
     const float period = 1.08f, stride = 1.3f;  // two steps

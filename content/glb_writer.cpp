@@ -71,8 +71,12 @@ class Buffer {
     tinygltf::Model& model_;
 };
 
-Value number(double v) { return Value(v); }
-Value object(Value::Object members) { return Value(std::move(members)); }
+Value number(double v) {
+    return Value(v);
+}
+Value object(Value::Object members) {
+    return Value(std::move(members));
+}
 
 // Per-vertex tangents along increasing u, orthogonal to the normal (Lengyel 2001).
 std::vector<Vec4> tangents(const Geometry& g, const std::vector<Vec2>& uvs) {
@@ -112,8 +116,8 @@ tinygltf::Primitive primitive(Buffer& buffer, const Geometry& g, int material, c
         p.attributes["TEXCOORD_0"] = buffer.vec2s(uvs);
     if (surface.normal_picture >= 0) p.attributes["TANGENT"] = buffer.vec4s(tangents(g, uvs));
     if (!g.joints.empty()) {
-        p.attributes["JOINTS_0"] = buffer.accessor(g.joints, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
-                                                   TINYGLTF_TYPE_VEC4, TINYGLTF_TARGET_ARRAY_BUFFER);
+        p.attributes["JOINTS_0"] = buffer.accessor(g.joints, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC4,
+                                                   TINYGLTF_TARGET_ARRAY_BUFFER);
         p.attributes["WEIGHTS_0"] = buffer.vec4s(g.weights);
     }
     return p;

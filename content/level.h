@@ -19,10 +19,10 @@ struct Surface {
     float alpha = 1.0f;
     float metallic = 0.0f;
     float roughness = 1.0f;
-    float specular = 1.0f;      // KHR_materials_specular; 0: a pure Lambert surface
-    Rgb emission = Rgb(0.0f);   // cd/m^2
-    int color_picture = -1;     // sRGB-coded
-    int normal_picture = -1;    // tangent space, linear
+    float specular = 1.0f;       // KHR_materials_specular; 0: a pure Lambert surface
+    Rgb emission = Rgb(0.0f);    // cd/m^2
+    int color_picture = -1;      // sRGB-coded
+    int normal_picture = -1;     // tangent space, linear
     int roughness_picture = -1;  // G roughness, B metallic, linear; multiplies the factors
     float normal_scale = 1.0f;
     Vec2 tile = Vec2(1.0f);  // metres a repeat of the pictures; builders write texture coordinates in metres

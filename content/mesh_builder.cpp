@@ -275,9 +275,9 @@ void MeshBuilder::torus(const Vec3& centre, float ring_radius, float tube_radius
         for (int t = 0; t <= tube_segments; ++t) {
             const double b = 2.0 * kPi * (t % tube_segments) / tube_segments;
             const Vec3 n = out * float(std::cos(b)) + Vec3(0, float(std::sin(b)), 0);
-            rings.back().push_back(vertex(centre + out * ring_radius + n * tube_radius, n,
-                                          {float(r) / ring_segments * 6.2832f * ring_radius,
-                                           float(t) / tube_segments * 6.2832f * tube_radius}));
+            rings.back().push_back(vertex(
+                centre + out * ring_radius + n * tube_radius, n,
+                {float(r) / ring_segments * 6.2832f * ring_radius, float(t) / tube_segments * 6.2832f * tube_radius}));
         }
     }
     for (std::size_t r = 0; r < std::size_t(ring_segments); ++r)

@@ -29,7 +29,8 @@ class MeshBuilder {
     void flat_quad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
     /// Convex polygon, fanned from the first corner.
     void flat_polygon(std::span<const Vec3> corners);
-    /// Quad with its own texture rectangle in metres: a is at uv (0, height), b (width, height), c (width, 0), d (0, 0).
+    /// Quad with its own texture rectangle in metres: a is at uv (0, height), b (width, height), c (width, 0), d (0,
+    /// 0).
     void picture_quad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec2& size);
 
     void box(const Vec3& low, const Vec3& high, Mapping mapping = Mapping::World);

@@ -6,7 +6,7 @@
 namespace daylit::content {
 namespace {
 
-constexpr int kHeadSteps = 12;  // even, so that the middle of the head is a point
+constexpr int kHeadSteps = 12;              // even, so that the middle of the head is a point
 constexpr float kPointedRise = 0.8660254f;  // equilateral arch: both arcs have the width as radius
 constexpr float kSegmentalRise = 0.2f;
 
@@ -17,13 +17,15 @@ Vec2 head_point(Head head, float width, float t) {
         return Vec2(float(std::cos(angle)) * radius, float(std::sin(angle)) * radius);
     };
     switch (head) {
-        case Head::Flat: return {half - width * t, 0.0f};
+        case Head::Flat:
+            return {half - width * t, 0.0f};
         case Head::Segmental: {
             const float rise = kSegmentalRise * width, radius = (half * half + rise * rise) / (2.0f * rise);
             const double limit = std::asin(double(half / radius));
             return arc(radius, kPi / 2 + (2.0 * t - 1.0) * limit) - Vec2(0, radius - rise);
         }
-        case Head::Round: return arc(half, kPi * t);
+        case Head::Round:
+            return arc(half, kPi * t);
         case Head::Pointed:
             return t <= 0.5f ? arc(width, kPi / 3 * (2.0 * t)) - Vec2(half, 0)
                              : arc(width, kPi - kPi / 3 * (2.0 - 2.0 * t)) + Vec2(half, 0);
@@ -54,8 +56,10 @@ void fill_around(MeshBuilder& builder, const Rect& r, const Loop& loop, bool out
         const Vec2 e = b - a, f = c - a;
         if (std::abs(e.x * f.y - e.y * f.x) < 1e-6f) return;
         const Vec3 p(a, -loop.depth), q(b, -loop.depth), s(c, -loop.depth);
-        if (outer) builder.flat_triangle(p, q, s);
-        else builder.flat_triangle(p, s, q);
+        if (outer)
+            builder.flat_triangle(p, q, s);
+        else
+            builder.flat_triangle(p, s, q);
     };
     // Every edge of the (convex) outline belongs to the corner that it faces; where the corner changes, a triangle
     // reaches from one corner to the next.
@@ -79,10 +83,14 @@ void fill_around(MeshBuilder& builder, const Rect& r, const Loop& loop, bool out
 
 float head_height(Head head, float width) {
     switch (head) {
-        case Head::Flat: return 0.0f;
-        case Head::Segmental: return kSegmentalRise * width;
-        case Head::Round: return 0.5f * width;
-        case Head::Pointed: return kPointedRise * width;
+        case Head::Flat:
+            return 0.0f;
+        case Head::Segmental:
+            return kSegmentalRise * width;
+        case Head::Round:
+            return 0.5f * width;
+        case Head::Pointed:
+            return kPointedRise * width;
     }
     return 0.0f;
 }
@@ -192,14 +200,15 @@ void add_surround(MeshBuilder& builder, const Opening& o, bool inside, float wid
                                           lifted(line, rise, -0.3f * width), lifted(wide, rise, 0.0f),
                                           lifted(wide, -0.01f, 0.0f)};
     for (int i = 0; i < 4; ++i) {
-        if (out > 0) builder.band(section[i + 1], section[i], false);
-        else builder.band(section[i], section[i + 1], false);
+        if (out > 0)
+            builder.band(section[i + 1], section[i], false);
+        else
+            builder.band(section[i], section[i + 1], false);
     }
     builder.at(Mat4(1.0f));
 }
 
-void add_tracery(MeshBuilder& builder, const Opening& o, const Loop& loop, Head head, float spring,
-                 const Tracery& t) {
+void add_tracery(MeshBuilder& builder, const Opening& o, const Loop& loop, Head head, float spring, const Tracery& t) {
     builder.at(wall_frame(o));
     const float left = loop.points[0].x, right = loop.points[1].x, bottom = loop.points[0].y;
     const float width = right - left, z = -t.depth;

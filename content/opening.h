@@ -27,8 +27,8 @@ struct Opening {
     Vec3 origin;  // on the outer face: the zero of the outlines
     Facing facing = Facing::South;
     float thickness = 1.0f;
-    std::vector<Loop> loops;  // from the outer face to the inner
-    int room = 0;             // whose air fills it
+    std::vector<Loop> loops;             // from the outer face to the inner
+    int room = 0;                        // whose air fills it
     int outer_wall = 0, inner_wall = 0;  // materials of the flush rest of the wall
     int reveal = 0, sill = 0;            // materials of the sides and head, and of the bottom
     bool open_bottom = false;            // no sill surface: the air goes on below (arches on columns)
@@ -47,12 +47,12 @@ void add_surround(MeshBuilder& builder, const Opening& opening, bool inside, flo
 /// Mullions, transoms and head tracery of round bars in the plane at `depth`, and a sheet filling it.
 struct Tracery {
     float depth = 0.3f;
-    int lights = 2;            // panes side by side
+    int lights = 2;  // panes side by side
     int transoms = 2;
-    float bar = 0.06f;         // radius
-    int sides = 6;             // of a bar's section
+    float bar = 0.06f;  // radius
+    int sides = 6;      // of a bar's section
     int bar_material = 0;
-    int sheet_material = -1;   // lattice or glass; -1: none
+    int sheet_material = -1;  // lattice or glass; -1: none
 };
 void add_tracery(MeshBuilder& builder, const Opening& opening, const Loop& loop, Head head, float spring,
                  const Tracery& tracery);

@@ -58,7 +58,8 @@ Level furnace() {
 // z into the box. The light's sheet is lowered by 0.5 mm off the ceiling; RGB stand-ins as commonly circulated.
 Level cornell_box() {
     Level level = empty_level("cornell_box");
-    const int white = add_matt(level, "white", {0.725f, 0.71f, 0.68f}), red = add_matt(level, "red", {0.63f, 0.065f, 0.05f});
+    const int white = add_matt(level, "white", {0.725f, 0.71f, 0.68f}),
+              red = add_matt(level, "red", {0.63f, 0.065f, 0.05f});
     const int green = add_matt(level, "green", {0.14f, 0.45f, 0.091f});
     const int light = add_matt(level, "light", Rgb(0.78f), {17, 12, 4});
     struct Quad {
@@ -87,7 +88,8 @@ Level cornell_box() {
     for (const Quad& q : quads) {
         b.material(q.material);
         Vec3 p[4];
-        for (int i = 0; i < 4; ++i) p[i] = 1e-3f * Vec3(278.0f - q.mm[3 * i], q.mm[3 * i + 1], 279.6f - q.mm[3 * i + 2]);
+        for (int i = 0; i < 4; ++i)
+            p[i] = 1e-3f * Vec3(278.0f - q.mm[3 * i], q.mm[3 * i + 1], 279.6f - q.mm[3 * i + 2]);
         b.flat_quad(p[0], p[1], p[2], p[3]);
     }
     level.add_object(b.take("cornell box"));

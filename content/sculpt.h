@@ -13,8 +13,8 @@ struct Lump {
     Vec3 from, to;
     float radius_from, radius_to;
     float blend = 0.03f;
-    int joint = 0;      // that moves it, for skinning
-    int material = 0;   // index into the materials passed to `polygonise`
+    int joint = 0;     // that moves it, for skinning
+    int material = 0;  // index into the materials passed to `polygonise`
     Vec3 squash = Vec3(1.0f);
 };
 

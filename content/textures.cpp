@@ -37,7 +37,8 @@ std::vector<std::uint8_t> color_png(const Pattern& p, const std::vector<Texel>& 
     std::vector<std::uint8_t> pixels;
     pixels.reserve(texels.size() * std::size_t(channels));
     for (const Texel& t : texels) {
-        for (int c = 0; c < 3; ++c) pixels.push_back(coded[std::size_t(std::clamp(t.color[c], 0.0f, 1.0f) * 16384.0f + 0.5f)]);
+        for (int c = 0; c < 3; ++c)
+            pixels.push_back(coded[std::size_t(std::clamp(t.color[c], 0.0f, 1.0f) * 16384.0f + 0.5f)]);
         if (channels == 4) pixels.push_back(byte(t.alpha));
     }
     return encode_png(p.width, p.height, channels, pixels);
@@ -144,7 +145,8 @@ std::vector<int> add_patterns(Level& level, const std::vector<Pattern>& patterns
 Pattern brick() {
     Pattern p{.name = "brick", .tile = {2.16f, 1.7f}, .width = 768, .height = 768, .texel = {}};
     p.texel = [tile = p.tile](Vec2 uv) {
-        const Vec2 bent = uv + 0.0014f * Vec2(fractal_noise(uv, 24, 24, 2, 3) - 0.5f, fractal_noise(uv, 24, 24, 2, 4) - 0.5f);
+        const Vec2 bent =
+            uv + 0.0014f * Vec2(fractal_noise(uv, 24, 24, 2, 3) - 0.5f, fractal_noise(uv, 24, 24, 2, 4) - 0.5f);
         const Course c = course(glm::fract(bent), tile, 8, 20, 0.5f);
         const float tone = hash_cell(c.column, c.row, 11), hue = hash_cell(c.column, c.row, 12);
         const float grain = fractal_noise(uv, 64, 64, 4, 5), stain = fractal_noise(uv, 4, 4, 4, 6);
@@ -183,7 +185,8 @@ Pattern ashlar() {
 Pattern rough_stone() {
     Pattern p{.name = "field stone", .tile = {2.0f, 2.0f}, .texel = {}};
     p.texel = [](Vec2 uv) {
-        const Vec2 bent = uv + 0.03f * Vec2(fractal_noise(uv, 6, 6, 3, 31) - 0.5f, fractal_noise(uv, 6, 6, 3, 32) - 0.5f);
+        const Vec2 bent =
+            uv + 0.03f * Vec2(fractal_noise(uv, 6, 6, 3, 31) - 0.5f, fractal_noise(uv, 6, 6, 3, 32) - 0.5f);
         const Worley w = worley(bent, 7, 33, 0.75f);
         const float grain = fractal_noise(uv, 48, 48, 4, 34), face = ramp(0.04f, 0.22f, w.second - w.first);
         Texel t;
@@ -254,7 +257,8 @@ Pattern marble_floor() {
         const bool dark = (c.column + c.row) % 2;
         const Vec2 own = glm::fract(uv + Vec2(hash_cell(c.column, c.row, 71), hash_cell(c.column, c.row, 72)));
         const float warp = fractal_noise(own, 4, 4, 5, 73);
-        const float vein = std::pow(1.0f - std::abs(2.0f * fractal_noise(glm::fract(own + 0.25f * warp), 4, 4, 4, 74) - 1.0f), 14.0f);
+        const float vein =
+            std::pow(1.0f - std::abs(2.0f * fractal_noise(glm::fract(own + 0.25f * warp), 4, 4, 4, 74) - 1.0f), 14.0f);
         const float joint = 1.0f - ramp(0.0015f, 0.004f, c.edge);
         Texel t;
         t.color = dark ? glm::mix(srgb(74, 78, 76), srgb(142, 140, 130), 0.7f * vein + 0.2f * warp)
@@ -332,7 +336,8 @@ float shield(Vec2 p) {  // p in a box of about 2 x 2.4, centre 0, y up
 Pattern tapestry() {
     Pattern p{.name = "tapestry", .tile = {2.0f, 3.0f}, .width = 768, .height = 1024, .texel = {}};
     p.texel = [](Vec2 uv) {
-        const Rgb madder = srgb(132, 38, 36), weld = srgb(204, 162, 78), woad = srgb(38, 58, 98), cream = srgb(220, 204, 168);
+        const Rgb madder = srgb(132, 38, 36), weld = srgb(204, 162, 78), woad = srgb(38, 58, 98),
+                  cream = srgb(220, 204, 168);
         const Vec2 q(2.0f * uv.x - 1.0f, 1.5f - 3.0f * uv.y);  // metres from the middle, y up
         const float border = std::min(1.0f - std::abs(q.x), 1.5f - std::abs(q.y));
         Rgb dye;
@@ -340,7 +345,8 @@ Pattern tapestry() {
             const float along = 1.0f - std::abs(q.x) < 0.17f ? q.y : q.x;
             const float wave = border - 0.085f - 0.04f * std::sin(along * 18.85f);
             dye = std::abs(wave) < 0.014f || std::abs(border - 0.155f) < 0.012f || border < 0.02f ? weld : woad;
-            if (glm::length(Vec2(glm::fract(along * 3.0f + 0.25f) / 3.0f - 0.1667f, border - 0.085f)) < 0.025f) dye = cream;
+            if (glm::length(Vec2(glm::fract(along * 3.0f + 0.25f) / 3.0f - 0.1667f, border - 0.085f)) < 0.025f)
+                dye = cream;
         } else {
             const Vec2 d(glm::fract((q.x + q.y * 0.8f) * 3.0f) - 0.5f, glm::fract((q.x - q.y * 0.8f) * 3.0f) - 0.5f);
             dye = madder * (0.9f + 0.2f * std::abs(d.x));
@@ -390,10 +396,16 @@ Pattern linen() {
 
 // Quarries of 0.16 x 0.24 m between lead cames 16 mm wide; the panes themselves are cut out.
 Pattern leaded_glass() {
-    Pattern p{.name = "leaded lattice", .tile = {0.32f, 0.48f}, .width = 256, .height = 256, .texel = {},
-              .normal_map = false, .alpha_mode = AlphaMode::Mask};
+    Pattern p{.name = "leaded lattice",
+              .tile = {0.32f, 0.48f},
+              .width = 256,
+              .height = 256,
+              .texel = {},
+              .normal_map = false,
+              .alpha_mode = AlphaMode::Mask};
     p.texel = [](Vec2 uv) {
-        const float a = std::abs(glm::fract(uv.x + uv.y + 0.5f) - 0.5f), b = std::abs(glm::fract(uv.x - uv.y + 0.5f) - 0.5f);
+        const float a = std::abs(glm::fract(uv.x + uv.y + 0.5f) - 0.5f),
+                    b = std::abs(glm::fract(uv.x - uv.y + 0.5f) - 0.5f);
         // Perpendicular distance to the lines u + v = k and u - v = k on the 0.32 x 0.48 m tile.
         const float metres = std::min(a, b) / glm::length(Vec2(1.0f / 0.32f, 1.0f / 0.48f));
         Texel t;
@@ -471,7 +483,12 @@ Pattern roof_tiles() {
 
 // One spray of leaves on a square of 0.6 m, cut out.
 Pattern leaves() {
-    Pattern p{.name = "leaves", .tile = {1.0f, 1.0f}, .width = 256, .height = 256, .texel = {}, .normal_map = false,
+    Pattern p{.name = "leaves",
+              .tile = {1.0f, 1.0f},
+              .width = 256,
+              .height = 256,
+              .texel = {},
+              .normal_map = false,
               .alpha_mode = AlphaMode::Mask};
     p.texel = [](Vec2 uv) {
         Texel t;
@@ -514,7 +531,8 @@ Pattern books() {
     p.texel = [](Vec2 uv) {
         const int book = int(uv.x * 22.0f);
         const float in = std::abs(glm::fract(uv.x * 22.0f) - 0.5f), tone = hash_cell(book, 0, 171);
-        const Rgb covers[5] = {srgb(110, 48, 38), srgb(86, 62, 40), srgb(52, 66, 54), srgb(64, 52, 74), srgb(150, 124, 84)};
+        const Rgb covers[5] = {srgb(110, 48, 38), srgb(86, 62, 40), srgb(52, 66, 54), srgb(64, 52, 74),
+                               srgb(150, 124, 84)};
         Texel t;
         t.color = covers[int(tone * 5.0f)] * (0.8f + 0.4f * fractal_noise(uv, 64, 24, 3, 172));
         if (std::abs(glm::fract(uv.y * 3.0f + 0.4f * tone) - 0.5f) < 0.035f) t.color = srgb(190, 152, 84);

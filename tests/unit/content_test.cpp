@@ -57,8 +57,10 @@ Closedness closedness(const std::vector<Vec3>& positions, const std::vector<std:
         result.volume += double(glm::dot(p[0], glm::cross(p[1], p[2]))) / 6.0;
         for (int k = 0; k < 3; ++k) {
             const Key a = key(p[k]), b = key(p[(k + 1) % 3]);
-            if (a < b) ++balance[{a, b}];
-            else --balance[{b, a}];
+            if (a < b)
+                ++balance[{a, b}];
+            else
+                --balance[{b, a}];
         }
     }
     for (const auto& [edge, sum] : balance) result.open_edges += sum != 0;
@@ -208,16 +210,19 @@ TEST(Content, CastleLoadsWithoutNotesWithinItsBudget) {
 TEST(Content, CastleHasACameraForEveryRoomAndPhenomenonClearOfWalls) {
     const Castle& c = castle();
     const Bounds box = bounds(c.mesh);
-    for (const char* name : {"hall", "hall_windows", "hall_evening", "treasury", "brass", "glass", "courtyard", "arcade",
-                             "cellar_entrance", "cellar_maze", "door", "cart", "figure", "tower", "overview"}) {
+    for (const char* name :
+         {"hall", "hall_windows", "hall_evening", "treasury", "brass", "glass", "courtyard", "arcade",
+          "cellar_entrance", "cellar_maze", "door", "cart", "figure", "tower", "overview"}) {
         const View view = camera_view(c.scene, c.pose, name);
-        EXPECT_TRUE(glm::all(glm::greaterThan(view.eye, box.min)) && glm::all(glm::lessThan(view.eye, box.max))) << name;
+        EXPECT_TRUE(glm::all(glm::greaterThan(view.eye, box.min)) && glm::all(glm::lessThan(view.eye, box.max)))
+            << name;
         const ViewRay ahead = view_ray(view, 32, 18, 64, 36);
         const std::optional<float> distance = hit(c.mesh, ahead.origin, ahead.direction, 200.0f);
         ASSERT_TRUE(distance.has_value()) << name << " looks into the void";
         EXPECT_GT(*distance, 1.0f) << name << " stands before a wall";
         // Inside a wall, the nearest surface would be close on every side.
-        for (const Vec3& side : {Vec3(0, -1, 0), Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)})
+        for (const Vec3& side :
+             {Vec3(0, -1, 0), Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)})
             EXPECT_GT(hit(c.mesh, view.eye, side, 0.2f).value_or(1.0f), 0.15f) << name;
     }
 }
@@ -227,7 +232,7 @@ TEST(Content, OneCanWalkFromTheGateThroughEveryRoom) {
     // The door stands half open and people move: only what is fixed counts.
     const WorldMesh fixed = world_mesh(c.scene, c.pose, Part::Static);
     const std::vector<std::vector<Vec2>> ways = {
-        {{-30, -4.5f}, {-8, -4.5f}, {4, -2}, {6.2f, 8}, {6.2f, 14}, {12, 14.9f}},          // gate, courtyard, hall, dais
+        {{-30, -4.5f}, {-8, -4.5f}, {4, -2}, {6.2f, 8}, {6.2f, 14}, {12, 14.9f}},  // gate, courtyard, hall, dais
         {{6, 5.5f}, {16.5f, 5.5f}, {19, 4}},                                       // courtyard, treasury
         {{-8, -4.5f}, {-8, -12}, {8, -12}},                                        // arcade
         {{-11, 9.5f}, {-13.2f, 8}, {-13.2f, -0.2f}, {-11, -0.2f}, {-11, 4.55f}, {-6.6f, 4.55f}}};  // stairs, maze
