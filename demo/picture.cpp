@@ -17,12 +17,13 @@ std::unique_ptr<GlContext> open_context(const std::string& name) {
 /// Medians of each pass' time over several reports of the same frame.
 FrameReport with_median_times(std::vector<FrameReport> reports) {
     FrameReport result = reports.back();
-    for (std::size_t pass = 0; pass < result.passes.size(); ++pass) {
-        std::vector<double> times;
-        for (const FrameReport& report : reports) times.push_back(report.passes[pass].milliseconds);
-        std::nth_element(times.begin(), times.begin() + long(times.size() / 2), times.end());
-        result.passes[pass].milliseconds = times[times.size() / 2];
-    }
+    for (std::size_t pass = 0; pass < result.passes.size(); ++pass)
+        for (double PassReport::*time : {&PassReport::milliseconds, &PassReport::processor_milliseconds}) {
+            std::vector<double> times;
+            for (const FrameReport& report : reports) times.push_back(report.passes[pass].*time);
+            std::nth_element(times.begin(), times.begin() + long(times.size() / 2), times.end());
+            result.passes[pass].*time = times[times.size() / 2];
+        }
     return result;
 }
 

@@ -25,7 +25,10 @@ nlohmann::json pass_json(const PassReport& pass, bool timed) {
     if (!pass.ran) return json;
     json["draws"] = pass.draws;
     json["triangles"] = pass.triangles;
-    if (timed) json["milliseconds"] = pass.milliseconds;
+    if (timed) {
+        json["milliseconds"] = pass.milliseconds;
+        json["processor_milliseconds"] = pass.processor_milliseconds;
+    }
     return json;
 }
 
@@ -38,12 +41,16 @@ void print_json(const ShotOptions& options, const Photographer& photographer, co
                            {"seconds", seconds},
                            {"clusters_drawn", picture.report.objects_drawn},
                            {"clusters_culled", picture.report.objects_culled}};
-    double frame = 0.0;
+    double frame = 0.0, processor = 0.0;
     for (const PassReport& pass : picture.report.passes) {
         json["passes"].push_back(pass_json(pass, options.picture.frames > 1));
         frame += pass.milliseconds;
+        processor += pass.processor_milliseconds;
     }
-    if (options.picture.frames > 1) json["frame_milliseconds"] = frame;
+    if (options.picture.frames > 1) {
+        json["frame_milliseconds"] = frame;
+        json["frame_processor_milliseconds"] = processor;
+    }
     std::printf("%s\n", json.dump(2).c_str());
 }
 

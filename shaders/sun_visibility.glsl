@@ -48,15 +48,14 @@ vec2 disc_point(int i, int n, float turn) {
     return sqrt((float(i) + 0.5) / float(n)) * vec2(cos(angle), sin(angle));
 }
 
-const int kSearchTaps = SHADOW_TAPS;
-const int kFilterTaps = SHADOW_TAPS;
-
-float lit_penumbra(SunReceiver r, float reach, float slack) {
+// taps is 0 outside of penumbras. Software drivers run both sides of every `if` but leave a loop as soon as no pixel of a
+// group goes on, so the loops themselves are what skips the work; a constant count would be unrolled and always paid.
+float lit_penumbra(SunReceiver r, float reach, float slack, int taps) {
     float turn = tap_rotation();
     float spread = frame.target.z / r.size;  // texels of disc radius per metre of height
     float heights = 0.0, blockers = 0.0;
-    for (int i = 0; i < kSearchTaps; ++i) {
-        ivec2 at = ivec2(r.texel + disc_point(i, kSearchTaps, turn) * reach);
+    for (int i = 0; i < taps; ++i) {
+        ivec2 at = ivec2(r.texel + disc_point(i, taps, turn) * reach);
         vec2 offset = vec2(at) + 0.5 - r.texel;
         float z = texelFetch(sun_depth, ivec3(at, r.layer), 0).r * r.scale;
         float height = r.depth + dot(r.gradient, offset) - z;
@@ -65,15 +64,15 @@ float lit_penumbra(SunReceiver r, float reach, float slack) {
             blockers += 1.0;
         }
     }
-    if (blockers == 0.0) return lit_bilinear(r, vec2(0.0), slack);
-    float height = heights / blockers;
+    float height = heights / max(blockers, 1.0);
+    if (blockers == 0.0) taps = 0;
     float radius = max(spread * height, 0.5);
     // What stands much lower than the blockers (a wall that rises beside the point) does not belong to this penumbra.
     float floor_height = max(slack, 0.1 * height);
     float lit = 0.0;
-    for (int i = 0; i < kFilterTaps; ++i)
-        lit += lit_bilinear(r, disc_point(i, kFilterTaps, turn) * radius, floor_height);
-    return lit / float(kFilterTaps);
+    for (int i = 0; i < taps; ++i)
+        lit += lit_bilinear(r, disc_point(i, taps, turn) * radius, floor_height);
+    return taps > 0 ? lit / float(taps) : lit_bilinear(r, vec2(0.0), slack);
 }
 
 // position: world; normal: of the face, turned to the side that is seen. Zero when that side turns away from the sun.
@@ -81,15 +80,18 @@ float sun_visibility(int sun, vec3 position, vec3 normal) {
     float facing = dot(normal, frame.suns[sun].direction.xyz);
     if (facing <= 0.0) return 0.0;
     vec2 across = vec2(dot(frame.suns[sun].axis_x.xyz, position), dot(frame.suns[sun].axis_y.xyz, position));
-    int cascades = int(frame.suns[sun].radiance.w);
+    // Constant indices only: software drivers fetch a uniform at a varying index lane by lane, at ten times the cost.
+    vec4 cascade = vec4(0.0);
     int layer = -1;
-    for (int c = cascades - 1; c >= 0; --c) {
-        vec4 cascade = frame.cascades[sun * kMaxCascades + c];
-        vec2 away = abs(across - cascade.xy);
-        if (max(away.x, away.y) < cascade.w) layer = c;
+    for (int c = kMaxCascades - 1; c >= 0; --c) {
+        vec4 other = frame.cascades[sun * kMaxCascades + c];  // width 0 beyond the last
+        vec2 away = abs(across - other.xy);
+        if (max(away.x, away.y) < other.w) {
+            cascade = other;
+            layer = c;
+        }
     }
     if (layer < 0) return 1.0;
-    vec4 cascade = frame.cascades[sun * kMaxCascades + layer];
 
     SunReceiver r;
     r.layer = int(frame.suns[sun].axis_x.w) + layer;
@@ -108,11 +110,12 @@ float sun_visibility(int sun, vec3 position, vec3 normal) {
 
     float reach = narrowing * r.depth / r.size;  // texels; no blocker stands higher than depth 0
     float lit = -1.0;
+    int levels = textureQueryLevels(sun_range);
     for (int step = 0; step < 3 && reach > 0.75; ++step) {
         // Blocks as wide as the reach: with its neighbours a block holds the whole kernel, and nothing beyond two blocks.
-        int mip = clamp(int(ceil(log2(reach))) - 2, 0, textureQueryLevels(sun_range) - 1);
+        int mip = clamp(((floatBitsToInt(reach) >> 23) - 126) - 2, 0, levels - 1);  // the exponent: ceil(log2)
         vec2 range = texelFetch(sun_range, ivec3(ivec2(r.texel) >> (mip + 2), r.layer), mip).rg * r.scale;
-        if (r.depth - steepness * r.size * 2.0 * exp2(float(mip + 2)) - range.y > slack) {
+        if (r.depth - steepness * r.size * 2.0 * float(1 << (mip + 2)) - range.y > slack) {
             lit = 0.0;
             break;
         }
@@ -123,7 +126,7 @@ float sun_visibility(int sun, vec3 position, vec3 normal) {
         }
         reach = closer;
     }
-    if (lit < 0.0) lit = reach > 0.75 ? lit_penumbra(r, reach, slack) : lit_bilinear(r, vec2(0.0), slack);
+    if (lit < 0.0) lit = lit_penumbra(r, reach, slack, reach > 0.75 ? SHADOW_TAPS : 0);
 #ifdef BLEND_CASTERS
     // A pane must not dim itself: it counts from a little behind its own plane, as steep as that is.
     float behind = r.depth - slack - 2.0 * r.size * steepness - 1.0e-3;

@@ -12,6 +12,8 @@ namespace {
 
 constexpr GLenum kMaxTextureMaxAnisotropy = 0x84FF, kTextureMaxAnisotropy = 0x84FE;  // EXT_texture_filter_anisotropic
 
+constexpr float kFineAnisotropy = 8.0f;
+
 std::array<const TextureRef*, 4> slots(const Material& m) {
     return {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.emission_texture};
 }
@@ -126,6 +128,7 @@ Materials::Materials(const Scene& scene, const std::vector<bool>& used) : scene_
     for (const Texture& texture : scene.textures) samplers_.push_back(sampler(texture));
     if (has_extension("GL_EXT_texture_filter_anisotropic"))
         glGetFloatv(kMaxTextureMaxAnisotropy, &largest_anisotropy_);
+    set_fine(false);
 }
 
 void Materials::add_texture(const TextureRef& ref, bool srgb) {
@@ -155,11 +158,16 @@ void Materials::bind_coverage(std::uint32_t material) const {
     bind_texture(0, scene_.materials[material].base_color_texture, true);
 }
 
-void Materials::set_anisotropy(float taps) {
-    taps = std::clamp(taps, 1.0f, largest_anisotropy_);
-    if (taps == anisotropy_) return;
-    anisotropy_ = taps;
-    for (const GlSampler& s : samplers_) glSamplerParameterf(s.get(), kTextureMaxAnisotropy, taps);
+void Materials::set_fine(bool fine) {
+    if (fine == fine_) return;
+    fine_ = fine;
+    for (std::size_t i = 0; i < samplers_.size(); ++i) {
+        const GLuint s = samplers_[i].get();
+        if (largest_anisotropy_ > 1.0f)
+            glSamplerParameterf(s, kTextureMaxAnisotropy, fine ? std::min(kFineAnisotropy, largest_anisotropy_) : 1.0f);
+        if (scene_.textures[i].filter == Filter::Linear)
+            glSamplerParameteri(s, GL_TEXTURE_MIN_FILTER, fine ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_NEAREST);
+    }
 }
 
 }  // namespace daylit

@@ -30,8 +30,9 @@ class Materials {
     void bind(std::uint32_t material) const;
     /// Only what coverage_defines() read.
     void bind_coverage(std::uint32_t material) const;
-    /// Anisotropic filtering of this many taps, where the driver has it; 1: none.
-    void set_anisotropy(float taps);
+    /// Fine: blended mipmap levels and anisotropic filtering, for pictures. Otherwise the nearest level alone, for frames:
+    /// half the texels to fetch, which is what a frame of a software driver mostly costs.
+    void set_fine(bool fine);
 
     std::size_t texture_bytes() const { return texture_bytes_; }
 
@@ -45,7 +46,8 @@ class Materials {
     std::map<std::pair<int, bool>, GlTexture> textures_;  // (image, sRGB)
     std::vector<GlSampler> samplers_;                     // one per Scene::textures
     std::size_t texture_bytes_ = 0;
-    float largest_anisotropy_ = 1.0f, anisotropy_ = 1.0f;
+    float largest_anisotropy_ = 1.0f;
+    bool fine_ = true;
 };
 
 }  // namespace daylit

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 
 #include "engine/gl/target.h"
 #include "engine/render/baked_light.h"
@@ -119,11 +120,13 @@ class PassRunner {
         if (plan.runs) {
             if (timings_) glFinish();
             const auto start = std::chrono::steady_clock::now();
+            const std::clock_t processor_start = std::clock();
             const DrawCount count = work();
             if (timings_) {
                 glFinish();
                 const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
                 pass.milliseconds = spent.count();
+                pass.processor_milliseconds = 1000.0 * double(std::clock() - processor_start) / CLOCKS_PER_SEC;
             }
             pass.draws = count.draws;
             pass.triangles = count.triangles;
@@ -280,7 +283,7 @@ FrameReport Renderer::draw(const FrameSettings& frame) {
     s.shown = frame.show;
     s.target.resize(frame.width, frame.height, frame.samples_per_side);
     s.draw.cull = frame.cull;
-    s.draw.materials->set_anisotropy(frame.samples_per_side > 1 ? 8.0f : 1.0f);
+    s.draw.materials->set_fine(frame.samples_per_side > 1);
     const FramePlan plan = plan_frame(s.facts(frame));
     PassRunner passes(plan, report, frame.timings);
 

@@ -30,6 +30,8 @@ struct PassReport {
     bool ran = false;
     std::string why;  // the condition that made it run or skipped it
     double milliseconds = 0.0;
+    double processor_milliseconds = 0.0;  // of all threads of the process; with a software driver the work itself,
+                                          // also while other programs compete for the cores
     int draws = 0;
     long triangles = 0;
 };
