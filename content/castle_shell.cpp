@@ -19,7 +19,10 @@ struct Roof {
 
 void add_roof(MeshBuilder& b, const Palette& use, const Roof& r) {
     const float overhang = 0.35f, thick = 0.2f;
-    const float u0 = r.along_x ? r.low.x : r.low.y, u1 = r.along_x ? r.high.x : r.high.y;
+    // A closed end stands a little in front of the wall below it.
+    const float proud = 0.08f;
+    const float u0 = (r.along_x ? r.low.x : r.low.y) - (r.end_low ? proud : 0.0f);
+    const float u1 = (r.along_x ? r.high.x : r.high.y) + (r.end_high ? proud : 0.0f);
     const float v0 = r.along_x ? r.low.y : r.low.x, v1 = r.along_x ? r.high.y : r.high.x;
     const float middle = 0.5f * (v0 + v1), half = 0.5f * (v1 - v0);
     const float slope = r.rise / half, drop = overhang * slope;
@@ -53,12 +56,13 @@ void add_roof(MeshBuilder& b, const Palette& use, const Roof& r) {
     b.material(use.brick);
     for (int end : {0, 1}) {
         if (!(end ? r.end_high : r.end_low)) continue;
-        const float u = end ? u1 : u0, y = r.eaves - 0.3f;
-        const Vec3 a = p(u, y, v0), q = p(u, y, v1), c = p(u, r.eaves + r.rise + 0.15f, middle);
-        if ((end == 1) == r.along_x)
-            b.flat_triangle(q, a, c);
-        else
-            b.flat_triangle(a, q, c);
+        const float u = end ? u1 : u0, in = end ? u1 - proud - 0.02f : u0 + proud + 0.02f;
+        const float y = r.eaves - drop + thick, a = v0 - overhang, z = v1 + overhang;
+        std::vector<Vec3> gable = {p(u, y - thick, a), p(u, y - thick, z), p(u, y, z),
+                                   p(u, r.eaves + r.rise + thick, middle), p(u, y, a)};
+        if ((end == 1) == r.along_x) std::reverse(gable.begin(), gable.end());
+        b.flat_polygon(gable);
+        quad(p(in, y - thick, a), p(u, y - thick, a), p(u, y - thick, z), p(in, y - thick, z), end == 1);
     }
 }
 
@@ -303,7 +307,7 @@ void build_courtyard(Castle& c) {
         {.low = {-21, -10.2f}, .high = {-14, 11}, .eaves = 7.4f, .rise = 3.6f, .along_x = false, .end_high = true});
     add_roof(
         roofs, c.use,
-        {.low = {14, -10.2f}, .high = {24.4f, 11}, .eaves = 7.4f, .rise = 4.4f, .along_x = false, .end_high = true});
+        {.low = {14, -12.6f}, .high = {24.4f, 11}, .eaves = 7.4f, .rise = 4.4f, .along_x = false, .end_high = true});
     c.level.add_object(roofs.take("roofs"));
 }
 
