@@ -65,6 +65,7 @@ struct Photographer::State {
     std::unique_ptr<GlContext> context;
     Renderer renderer;
     LightModel light;
+    bool said_unbaked = false;
 };
 
 Photographer::Photographer(const PictureOptions& options) {
@@ -72,8 +73,6 @@ Photographer::Photographer(const PictureOptions& options) {
         throw Error("--samples", "give 1 to 8 samples along a pixel's side");
     if (options.frames < 1 || options.frames > 1000) throw Error("--frames", "give 1 to 1000");
     state_ = std::make_unique<State>(options);
-    if (!state_->loaded.baked)
-        std::fprintf(stderr, "daylit: no baked light (--light), so indirect light is zero\n");
 }
 
 Photographer::~Photographer() = default;
@@ -104,6 +103,10 @@ Picture Photographer::take(double hour, double seconds) {
     picture.report = with_median_times(std::move(reports));
     picture.radiance = s.renderer.read_radiance();
     picture.ev = s.ev ? *s.ev : auto_ev(picture.radiance);
+    if (!s.loaded.baked && !s.said_unbaked) {
+        std::fprintf(stderr, "daylit: no baked light (--light), so indirect light is zero\n");
+        s.said_unbaked = true;
+    }
     return picture;
 }
 

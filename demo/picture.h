@@ -28,7 +28,7 @@ struct Picture {
     double ev = 0.0;  // given, or auto_ev() of the radiance, as `reference` does
 };
 
-/// A loaded scene with a context and a renderer. Says on stderr when there is no baked light.
+/// A loaded scene with a context and a renderer. Its first picture says on stderr when there is no baked light.
 class Photographer {
   public:
     explicit Photographer(const PictureOptions& options);

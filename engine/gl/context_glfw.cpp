@@ -13,15 +13,13 @@ std::string error_text() {
     return text ? text : "unknown reason";
 }
 
-/// glfwInit and glfwTerminate, shared by all windows of the process.
+/// glfwInit once a process, glfwTerminate at its end. Never in between: terminating unloads the driver, and Mesa's GLX
+/// does not survive being loaded a second time.
 class GlfwLibrary {
   public:
-    static std::shared_ptr<GlfwLibrary> get() {
-        static std::weak_ptr<GlfwLibrary> shared;
-        std::shared_ptr<GlfwLibrary> library = shared.lock();
-        if (!library) shared = library = std::make_shared<GlfwLibrary>();
-        return library;
-    }
+    static void need() { static const GlfwLibrary library; }
+
+  private:
     GlfwLibrary() {
         if (!glfwInit()) {
             throw Error("GLFW", "no display to open a window on (" + error_text() + "); EGL and OSMesa need none");
@@ -34,7 +32,8 @@ class GlfwLibrary {
 
 class GlfwContext : public GlContext {
   public:
-    explicit GlfwContext(const ContextOptions& options) : library_(GlfwLibrary::get()) {
+    explicit GlfwContext(const ContextOptions& options) {
+        GlfwLibrary::need();
         glfwDefaultWindowHints();
         glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
         glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
@@ -67,7 +66,6 @@ class GlfwContext : public GlContext {
     void* function(const char* name) const override { return reinterpret_cast<void*>(glfwGetProcAddress(name)); }
 
   private:
-    std::shared_ptr<GlfwLibrary> library_;
     GLFWwindow* window_ = nullptr;
 };
 

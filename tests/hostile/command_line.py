@@ -124,7 +124,7 @@ for previous in (None, b"yesterday's picture"):
     for hour in ("24", "-1", "1e9", "25:00", "12:60"):
         expect(1, "--hour", *shot, "--hour", hour)
     for size in ("0x0", "100000x100000", "-5x5"):
-        expect(1, "--size", *shot, "--size", size)
+        expect(1, "--size", "shot", good, "-o", out, "--size", size)
     expect(1, "absent.daylit", *shot, "--light", work / "absent.daylit")
     expect(1, "text.daylit", *shot, "--light", work / "text.daylit")
     expect(1, "absent.exr", *shot, "--sky", work / "absent.exr")
@@ -134,7 +134,7 @@ for previous in (None, b"yesterday's picture"):
     expect(1, "--date", *shot, "--date", "2026-02-30")
     expect(1, "nothing", *shot, "--move", "nothing=0,0,0")
 expect(2, "--hour", *shot, "--hour", "noon")
-expect(2, "--size", *shot, "--size", "big")
+expect(2, "--size", "shot", good, "-o", out, "--size", "big")
 expect(2, "--show", *shot, "--show", "sparkle")
 expect(2, "--context", *shot, "--context", "vulkan")
 expect(2, "--sky", *shot, "--sky", "green")
