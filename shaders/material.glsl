@@ -34,7 +34,13 @@ vec2 texture_uv(int slot, vec4 uvs) {
 vec4 material_base_color(vec4 uvs, vec4 vertex_color) {
     vec4 color = material.base_color * vertex_color;
 #ifdef BASE_COLOR_TEXTURE
-    color *= texture(base_color_texture, texture_uv(0, uvs));
+    vec2 uv = texture_uv(0, uvs);
+#ifdef MASK
+    // Averaged alpha would fall below the cutoff and thin leaves and lattices away: holes are cut in the finest level.
+    color *= vec4(texture(base_color_texture, uv).rgb, textureLod(base_color_texture, uv, 0.0).a);
+#else
+    color *= texture(base_color_texture, uv);
+#endif
 #endif
     return color;
 }
@@ -59,9 +65,12 @@ Brdf material_brdf(vec3 base_color, vec4 uvs) {
 }
 
 // n: the interpolated normal on the side that is seen; side: -1 on a back face, whose tangent frame is mirrored.
-vec3 material_normal(vec3 n, float side, vec4 tangent, vec4 uvs) {
+// evenness: length of the mean of the unit normals that the filter averaged; 1 where they all agree. Lambert's light of
+// all of them together is that of their mean, so it is dimmed by this; a gloss lobe is widened (Toksvig 2005).
+vec3 material_normal(vec3 n, float side, vec4 tangent, vec4 uvs, out float evenness) {
 #ifdef NORMAL_TEXTURE
     vec3 t = texture(normal_texture, texture_uv(2, uvs)).rgb * 2.0 - 1.0;
+    evenness = min(length(t) * 1.004, 1.0);  // 8 bits make a unit vector up to 0.4 % shorter
     t.xy *= material.metal_rough.z;
     vec3 outward = n * side;
     vec3 bitangent = cross(outward, tangent.xyz) * tangent.w;
@@ -69,6 +78,11 @@ vec3 material_normal(vec3 n, float side, vec4 tangent, vec4 uvs) {
     float size = dot(mapped, mapped);
     return size > 1.0e-8 ? mapped * (side * inversesqrt(size)) : n;
 #else
+    evenness = 1.0;
     return n;
 #endif
+}
+
+float uneven_exponent(float exponent, float evenness) {
+    return exponent * evenness / (evenness + exponent * (1.0 - evenness));
 }

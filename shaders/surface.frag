@@ -95,11 +95,15 @@ void main() {
     face_normal *= inversesqrt(max(dot(face_normal, face_normal), 1.0e-30));
     if (dot(face_normal, view) < 0.0) face_normal = -face_normal;
     vec3 normal = normalize(v_normal) * side;
+    float evenness = 1.0;
 #ifdef NORMAL_TEXTURE
-    normal = material_normal(normal, side, v_tangent, uvs);
+    normal = material_normal(normal, side, v_tangent, uvs, evenness);
 #endif
 
     Brdf brdf = material_brdf(base_color.rgb, uvs);
+#ifdef NORMAL_TEXTURE
+    brdf.exponent = uneven_exponent(brdf.exponent, evenness);
+#endif
     vec3 emission = material_emission(uvs);
 #ifdef UNLIT
     brdf.diffuse = vec3(0.0);
@@ -138,6 +142,8 @@ void main() {
     vec3 indirect = vec3(0.0);
 #if defined(SHOW_FINAL) || defined(SHOW_DIRECT) || defined(SHOW_IRRADIANCE)
     direct = direct_light(brdf, normal, face_normal, view);
+    direct.irradiance *= evenness;
+    direct.radiance *= evenness;
 #endif
 #if defined(LIGHTMAP) && (defined(SHOW_FINAL) || defined(SHOW_INDIRECT) || defined(SHOW_IRRADIANCE) || defined(SHOW_LIGHTMAP))
     indirect = baked_irradiance(v_lightmap_uv);
