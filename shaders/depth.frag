@@ -1,6 +1,6 @@
 #version 450 core
 // Depth of casters. MASK ones are cut. VEIL: the next BLEND caster behind the layers that are already known (depth
-// peeling, Everitt 2001): its depth and the share of light that it lets through.
+// peeling, Everitt 2001): its depth and the share of light that it lets through. CLUSTERS: the cluster that is seen.
 #if defined(MASK) || defined(VEIL)
 #include "shaders/material.glsl"
 #endif
@@ -16,7 +16,15 @@ layout(location = 1) uniform int known_layer;  // the nearest layer known so far
 layout(location = 0) out vec2 out_veil;
 #endif
 
+#ifdef CLUSTERS
+layout(location = 6) flat in uint v_cluster;
+layout(location = 0) out uint out_cluster;
+#endif
+
 void main() {
+#ifdef CLUSTERS
+    out_cluster = v_cluster;
+#endif
 #if defined(MASK) || defined(VEIL)
 #ifdef TEXTURED
     vec4 uvs = v_uvs;

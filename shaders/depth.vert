@@ -11,6 +11,11 @@ layout(location = 4) in vec4 in_color;
 layout(location = 4) out vec4 v_color;
 #endif
 
+#ifdef CLUSTERS
+layout(location = 6) in uint in_cluster;
+layout(location = 6) flat out uint v_cluster;
+#endif
+
 invariant gl_Position;
 
 void main() {
@@ -20,5 +25,8 @@ void main() {
 #endif
 #ifdef VERTEX_COLOR
     v_color = in_color;
+#endif
+#ifdef CLUSTERS
+    v_cluster = in_cluster;
 #endif
 }

@@ -7,13 +7,15 @@ vec3 lamp_irradiance(int i, vec3 to_lamp) {
     float d2 = dot(to_lamp, to_lamp);
     if (d2 <= 0.0) return vec3(0.0);
     float window = clamp(1.0 - d2 * d2 * lamp_block.lamps[i].position.w, 0.0, 1.0);
-    float cos_outer = lamp_block.lamps[i].intensity.w;
     float cone = 1.0;
+#ifdef SPOTS
+    float cos_outer = lamp_block.lamps[i].axis_x.w;
     if (cos_outer > -1.5) {
         float cos_angle = -dot(lamp_block.lamps[i].direction.xyz, to_lamp) * inversesqrt(d2);
         cone = clamp((cos_angle - cos_outer) * lamp_block.lamps[i].direction.w, 0.0, 1.0);
         cone *= cone;
     }
+#endif
     return lamp_block.lamps[i].intensity.rgb * (window * cone / d2);
 }
 
@@ -37,33 +39,34 @@ void cube_face(vec3 d, out int face, out vec3 x, out vec3 y, out vec3 z) {
 }
 
 float lamp_visibility(int i, vec3 to_lamp, vec3 normal) {
-    vec4 shadow = lamp_block.lamps[i].shadow;
     if (dot(normal, to_lamp) <= 0.0) return 0.0;
-    if (shadow.x < 0.0) return 1.0;
     vec3 d = -to_lamp;
     int face = 0;
     vec3 x, y, z;
-    if (shadow.y > 1.5) {
-        cube_face(d, face, x, y, z);
-    } else {
+    cube_face(d, face, x, y, z);
+    float side = frame.counts.w, span = 1.0 + kLampBorder / side;
+#ifdef SPOTS
+    if (lamp_block.lamps[i].map.x > 0.0) {
+        span = lamp_block.lamps[i].map.x;
+        face = 0;
         x = lamp_block.lamps[i].axis_x.xyz;
         z = lamp_block.lamps[i].direction.xyz;
         y = cross(z, x);
     }
+#endif
     vec3 p = vec3(dot(x, d), dot(y, d), dot(z, d));
     vec3 n = vec3(dot(x, normal), dot(y, normal), dot(z, normal));
-    float side = frame.counts.w;
-    vec2 place = (p.xy / (p.z * shadow.w) * 0.5 + 0.5) * side;
+    vec2 place = (p.xy / (p.z * span) * 0.5 + 0.5) * side;
     vec2 base = floor(place - 0.5);
     vec2 f = place - 0.5 - base;
-    vec4 stored = textureGather(lamp_depth, vec3((base + 1.0) / side, shadow.x + float(face)));
+    vec4 stored = textureGather(lamp_depth, vec3((base + 1.0) / side, lamp_block.lamps[i].intensity.w + float(face)));
     // Distance along the axis at which the ray through each texel's centre meets the receiver's plane.
-    vec4 ray_x = ((base.x + vec4(0.5, 1.5, 1.5, 0.5)) / side * 2.0 - 1.0) * shadow.w;
-    vec4 ray_y = ((base.y + vec4(1.5, 1.5, 0.5, 0.5)) / side * 2.0 - 1.0) * shadow.w;
+    vec4 ray_x = ((base.x + vec4(0.5, 1.5, 1.5, 0.5)) / side * 2.0 - 1.0) * span;
+    vec4 ray_y = ((base.y + vec4(1.5, 1.5, 0.5, 0.5)) / side * 2.0 - 1.0) * span;
     vec4 toward = n.x * ray_x + n.y * ray_y + n.z;  // negative where the plane faces the lamp
     vec4 plane = dot(n, p) / min(toward, vec4(-1.0e-4));
-    vec4 slack = 1.0e-3 + plane * (2.0 * shadow.w / side) * 0.2;
-    vec4 lit = step(stored * (plane - slack), vec4(shadow.z));
+    vec4 slack = 1.0e-3 + plane * (0.4 * span / side);
+    vec4 lit = step(stored * (plane - slack), vec4(kLampNear));
     vec2 rows = mix(lit.wx, lit.zy, f.x);
     return mix(rows.x, rows.y, f.y);
 }

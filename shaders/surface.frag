@@ -7,6 +7,7 @@
 #endif
 #ifdef LAMPS
 #include "shaders/lamps.glsl"
+layout(location = 10) uniform uvec4 lamp_bits;  // the lamps that may light what is drawn; LAMPS words are used
 #endif
 #ifdef LIGHTMAP
 #include "shaders/baked_light.glsl"
@@ -59,15 +60,13 @@ Light direct_light(Brdf brdf, vec3 normal, vec3 face_normal, vec3 view) {
     }
 #endif
 #ifdef LAMPS
-    int lamps = int(frame.counts.y);
-    for (int i = 0; i < lamps; ++i) {
-        vec3 to_lamp = lamp_block.lamps[i].position.xyz - v_position;
-        if (dot(normal, to_lamp) <= 0.0) continue;
-        vec3 e = lamp_irradiance(i, to_lamp);
-        if (max(e.r, max(e.g, e.b)) <= 0.0) continue;
-        e *= lamp_visibility(i, to_lamp, face_normal);
-        add_light(light, brdf, e, normalize(to_lamp), normal, mirrored);
-    }
+    for (int word = 0; word < LAMPS; ++word)
+        for (uint bits = lamp_bits[word]; bits != 0u; bits &= bits - 1u) {
+            int i = 32 * word + findLSB(bits);
+            vec3 to_lamp = lamp_block.lamps[i].position.xyz - v_position;
+            vec3 e = lamp_irradiance(i, to_lamp) * lamp_visibility(i, to_lamp, face_normal);
+            add_light(light, brdf, e, normalize(to_lamp), normal, mirrored);
+        }
 #endif
     return light;
 }

@@ -70,7 +70,9 @@ DrawCount BlendPass::draw(DrawScene& scene, const View& view, const FrameDefines
         const std::vector<std::string>& frame = frame_defines[std::size_t(run.part)];
         defines.insert(defines.end(), frame.begin(), frame.end());
         part.bind();
-        scene.programs.get("surface.vert", "surface.frag", defines).use();
+        const Program& program = scene.programs.get("surface.vert", "surface.frag", defines);
+        program.use();
+        set_lamp_bits(program, kEveryLamp);
         scene.materials->bind(batch.material);
         if (scene.material(batch).double_sided) glDisable(GL_CULL_FACE);
         else glEnable(GL_CULL_FACE);

@@ -14,7 +14,6 @@ constexpr std::uint32_t kNone = ~std::uint32_t(0);
 
 void pack_frame(VertexAttributes& a, const Vec3& normal, const Vec4& tangent) {
     for (int i = 0; i < 3; ++i) a.normal[i] = std::int16_t(std::lround(glm::clamp(normal[i], -1.0f, 1.0f) * 32767.0f));
-    a.normal[3] = 0;
     a.tangent = glm::packSnorm3x10_1x2(tangent);
 }
 
@@ -60,18 +59,19 @@ class Clusterer {
     std::vector<std::uint32_t>& order_;
 };
 
-/// Gives each pair of source vertex and lightmap place one vertex, in order of first use.
+/// Gives each triple of source vertex, lightmap place and cluster one vertex, in order of first use.
 class VertexWelder {
   public:
     VertexWelder(const WorldMesh& mesh, DrawMesh& out) : mesh_(mesh), out_(out), first_(mesh.positions.size(), kNone) {}
-    std::uint32_t vertex(std::uint32_t source, const Vec2& uv) {
+    std::uint32_t vertex(std::uint32_t source, const Vec2& uv, std::uint16_t cluster) {
         const std::uint16_t place[2] = {coded(uv.x), coded(uv.y)};
         for (std::uint32_t v = first_[source]; v != kNone; v = next_[v])
-            if (std::equal(place, place + 2, out_.attributes[v].lightmap_uv)) return v;
+            if (out_.attributes[v].cluster == cluster && std::equal(place, place + 2, out_.attributes[v].lightmap_uv)) return v;
         const auto v = std::uint32_t(out_.positions.size());
         out_.positions.push_back(mesh_.positions[source]);
         out_.attributes.push_back(pack(mesh_, source));
         std::copy(place, place + 2, out_.attributes.back().lightmap_uv);
+        out_.attributes.back().cluster = cluster;
         out_.source.push_back(source);
         next_.push_back(first_[source]);
         first_[source] = v;
@@ -120,7 +120,8 @@ DrawMesh build_draw_mesh(const WorldMesh& mesh, const DayLightmap* lightmap, boo
             for (std::size_t i = from; i < to; ++i)
                 for (std::size_t corner = 3 * std::size_t(order[i]); corner < 3 * std::size_t(order[i]) + 3; ++corner) {
                     const std::uint32_t v = mesh.indices[corner];
-                    out.indices.push_back(welder.vertex(v, lightmap ? lightmap->corner_uvs[corner] : Vec2(0.0f)));
+                    out.indices.push_back(welder.vertex(v, lightmap ? lightmap->corner_uvs[corner] : Vec2(0.0f),
+                                                        std::uint16_t(out.clusters.size())));
                     if (mesh.colors[v] != Rgba(1.0f)) out.batches.back().vertex_colors = true;
                 }
             set_bounds(out, cluster);

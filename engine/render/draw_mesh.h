@@ -10,7 +10,8 @@ namespace daylit {
 
 /// Everything of a vertex but its position, which depth-only passes read alone. 40 bytes.
 struct VertexAttributes {
-    std::int16_t normal[4];        // signed, normalised; [3] unused
+    std::int16_t normal[3];        // signed, normalised
+    std::uint16_t cluster;         // number of its cluster modulo 2^16
     std::uint32_t tangent;         // 10-10-10-2 signed, normalised; w is the handedness
     float uvs[4];                  // both sets
     std::uint16_t color[4];        // halves

@@ -6,6 +6,7 @@ namespace daylit {
 namespace {
 
 const Frustum kEverything{{}, 0};
+constexpr GLint kLampBitsLocation = 10;  // as in shaders/surface.frag
 
 void cull_faces(bool on) {
     if (on) glEnable(GL_CULL_FACE);
@@ -38,16 +39,35 @@ void DrawScene::add_visible(const Geometry& geometry, const Batch& batch, const 
     geometry.add_visible(batch, cull ? frustum : kEverything, list);
 }
 
+void set_lamp_bits(const Program& program, const LampBits& bits) {
+    if (program.has("lamp_bits")) glProgramUniform4uiv(program.get(), kLampBitsLocation, 1, bits.data());
+}
+
+std::vector<std::pair<LampBits, DrawList>> DrawScene::lists_by_lamps(const Geometry& geometry, const Batch& batch,
+                                                                     const Frustum& frustum) const {
+    std::vector<std::pair<LampBits, DrawList>> lists;
+    const bool known = &geometry == &*parts[0] && !lamp_bits.empty();
+    for (std::uint32_t i = 0; i < batch.cluster_count; ++i) {
+        const std::uint32_t cluster = batch.first_cluster + i;
+        const LampBits bits = known ? lamp_bits[cluster] : kEveryLamp;
+        auto list = std::find_if(lists.begin(), lists.end(), [&](const auto& l) { return l.first == bits; });
+        if (list == lists.end()) list = lists.insert(list, {bits, DrawList()});
+        geometry.add_if_visible(cluster, cull ? frustum : kEverything, list->second);
+    }
+    return lists;
+}
+
 bool DrawScene::moved_in(const Frustum& frustum, std::uint64_t since) const {
     if (since == version) return false;
     if (since + 1 != version) return true;
     return std::any_of(moved.begin(), moved.end(), [&](const Bounds& box) { return may_see(frustum, box); });
 }
 
-DrawCount DrawScene::draw_coverage(const Mat4& clip_from_world, const Frustum& frustum, bool for_light) {
+DrawCount DrawScene::draw_coverage(const Mat4& clip_from_world, const Frustum& frustum, CoverageFor purpose) {
+    const bool for_light = purpose != CoverageFor::Eye;
     DrawCount count;
     for (const std::optional<Geometry>& part : parts) {
-        if (!part) continue;
+        if (!part || (purpose == CoverageFor::Clusters && &part != &parts[0])) continue;
         part->bind();
         // Whole faces first, in as few calls as there are culling states; then those with holes, one a material.
         DrawList whole[2];
@@ -59,7 +79,9 @@ DrawCount DrawScene::draw_coverage(const Mat4& clip_from_world, const Frustum& f
         }
         for (int culled = 0; culled < 2; ++culled) {
             if (whole[culled].empty()) continue;
-            const Program& program = programs.get("depth.vert", "depth.frag");
+            std::vector<std::string> defines;
+            if (purpose == CoverageFor::Clusters) defines.push_back("CLUSTERS");
+            const Program& program = programs.get("depth.vert", "depth.frag", defines);
             program.use();
             program.set("clip_from_world", clip_from_world);
             cull_faces(culled == 1);
@@ -75,6 +97,7 @@ DrawCount DrawScene::draw_coverage(const Mat4& clip_from_world, const Frustum& f
             if (list.empty()) continue;
             std::vector<std::string> defines = coverage_defines(material(batch), batch.vertex_colors);
             defines.push_back("MASK");
+            if (purpose == CoverageFor::Clusters) defines.push_back("CLUSTERS");
             const Program& program = programs.get("depth.vert", "depth.frag", defines);
             program.use();
             program.set("clip_from_world", clip_from_world);
@@ -88,11 +111,15 @@ DrawCount DrawScene::draw_coverage(const Mat4& clip_from_world, const Frustum& f
 }
 
 DrawCount DrawScene::draw_casters(const Mat4& clip_from_world, const Frustum& frustum) {
-    return draw_coverage(clip_from_world, frustum, true);
+    return draw_coverage(clip_from_world, frustum, CoverageFor::Light);
+}
+
+void DrawScene::draw_clusters(const Mat4& clip_from_world, const Frustum& frustum) {
+    draw_coverage(clip_from_world, frustum, CoverageFor::Clusters);
 }
 
 DrawCount DrawScene::draw_depth(const Mat4& clip_from_world, const Frustum& frustum) {
-    return draw_coverage(clip_from_world, frustum, false);
+    return draw_coverage(clip_from_world, frustum, CoverageFor::Eye);
 }
 
 DrawCount DrawScene::draw_veils(const Mat4& clip_from_world, const Frustum& frustum, int known_layer) {
@@ -127,16 +154,19 @@ DrawCount DrawScene::draw_surfaces(const FrameDefines& frame_defines, const Frus
         part->bind();
         for (const Batch& batch : part->mesh().batches) {
             if (coverage(material(batch)) == Coverage::Through) continue;
-            DrawList list;
-            add_visible(*part, batch, frustum, list);
-            count.add(list);
-            if (list.empty()) continue;
+            const auto lists = lists_by_lamps(*part, batch, frustum);
+            if (lists.empty()) continue;
             std::vector<std::string> defines = surface_defines(material(batch), batch.vertex_colors);
             defines.insert(defines.end(), frame_defines[p].begin(), frame_defines[p].end());
-            programs.get("surface.vert", "surface.frag", defines).use();
+            const Program& program = programs.get("surface.vert", "surface.frag", defines);
+            program.use();
             materials->bind(batch.material);
             cull_faces(!material(batch).double_sided);
-            Geometry::draw(list);
+            for (const auto& [bits, list] : lists) {
+                count.add(list);
+                set_lamp_bits(program, bits);
+                Geometry::draw(list);
+            }
         }
     }
     cull_faces(false);

@@ -22,6 +22,13 @@ struct DrawCount {
 /// What the frame asks of every surface program, for the part that stands and the part that moves.
 using FrameDefines = std::array<std::vector<std::string>, 2>;
 
+/// A bit for each lamp that may light something.
+using LampBits = std::array<std::uint32_t, 4>;
+inline constexpr LampBits kEveryLamp = {~0u, ~0u, ~0u, ~0u};
+
+/// Tells a surface program which lamps to evaluate.
+void set_lamp_bits(const Program& program, const LampBits& bits);
+
 /// Binds a texture with its own filters, in place of a material's sampler.
 void bind_texture(GLuint unit, GLuint texture);
 
@@ -36,6 +43,8 @@ struct DrawScene {
     bool any_veils = false, any_through = false;
     bool cull = true;           // clusters; false draws everything, to judge what culling saves
     std::uint64_t version = 0;  // one more whenever a triangle has moved
+    std::uint64_t standing_version = 0;  // as version, of what stands alone
+    std::vector<LampBits> lamp_bits;     // by cluster of what stands; empty: every lamp may light everything
     std::vector<Bounds> moved;  // where those were and are that moved from the version before to this one
 
     const Material& material(const Batch& batch) const { return scene.materials[batch.material]; }
@@ -47,13 +56,18 @@ struct DrawScene {
     DrawCount draw_casters(const Mat4& clip_from_world, const Frustum& frustum);
     /// The first BLEND casters behind a known layer of veils (bound to unit 7; -1: none): depth and share let through.
     DrawCount draw_veils(const Mat4& clip_from_world, const Frustum& frustum, int known_layer);
+    /// Numbers of the clusters of what stands, nearest first, into an unsigned target with depth.
+    void draw_clusters(const Mat4& clip_from_world, const Frustum& frustum);
     /// Depth of what the camera sees, faces that turn away culled unless double-sided.
     DrawCount draw_depth(const Mat4& clip_from_world, const Frustum& frustum);
     /// Shaded OPAQUE and MASK surfaces as the camera sees them; `frame_defines` on top of the material's own.
     DrawCount draw_surfaces(const FrameDefines& frame_defines, const Frustum& frustum);
 
   private:
-    DrawCount draw_coverage(const Mat4& clip_from_world, const Frustum& frustum, bool for_light);
+    enum class CoverageFor { Light, Eye, Clusters };
+    DrawCount draw_coverage(const Mat4& clip_from_world, const Frustum& frustum, CoverageFor purpose);
+    std::vector<std::pair<LampBits, DrawList>> lists_by_lamps(const Geometry& geometry, const Batch& batch,
+                                                              const Frustum& frustum) const;
     void add_visible(const Geometry& geometry, const Batch& batch, const Frustum& frustum, DrawList& list) const;
 };
 

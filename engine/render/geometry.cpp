@@ -32,6 +32,9 @@ Geometry::Geometry(DrawMesh mesh, bool moves)
     attribute(array, 3, 4, GL_FLOAT, false, offsetof(VertexAttributes, uvs));
     attribute(array, 4, 4, GL_HALF_FLOAT, false, offsetof(VertexAttributes, color));
     attribute(array, 5, 2, GL_UNSIGNED_SHORT, true, offsetof(VertexAttributes, lightmap_uv));
+    glEnableVertexArrayAttrib(array, 6);
+    glVertexArrayAttribIFormat(array, 6, 1, GL_UNSIGNED_SHORT, GLuint(offsetof(VertexAttributes, cluster)));
+    glVertexArrayAttribBinding(array, 6, 1);
     glVertexArrayElementBuffer(array, indices_.get());
 }
 
@@ -49,23 +52,24 @@ std::vector<Bounds> Geometry::move(const WorldMesh& moved) {
 }
 
 void Geometry::add_visible(const Batch& batch, const Frustum& frustum, DrawList& list) const {
-    std::uint32_t end = ~std::uint32_t(0);  // of the last range, in indices
-    for (std::uint32_t i = 0; i < batch.cluster_count; ++i) {
-        const Cluster& cluster = mesh_.clusters[batch.first_cluster + i];
-        if (!may_see(frustum, cluster.bounds)) {
-            ++list.clusters_culled;
-            continue;
-        }
-        ++list.clusters_drawn;
-        list.triangles += cluster.count / 3;
-        if (cluster.first == end) {
-            list.counts.back() += GLsizei(cluster.count);
-        } else {
-            list.counts.push_back(GLsizei(cluster.count));
-            list.offsets.push_back(reinterpret_cast<const void*>(std::uintptr_t(cluster.first) * 4));
-        }
-        end = cluster.first + cluster.count;
+    for (std::uint32_t i = 0; i < batch.cluster_count; ++i) add_if_visible(batch.first_cluster + i, frustum, list);
+}
+
+void Geometry::add_if_visible(std::uint32_t number, const Frustum& frustum, DrawList& list) const {
+    const Cluster& cluster = mesh_.clusters[number];
+    if (!may_see(frustum, cluster.bounds)) {
+        ++list.clusters_culled;
+        return;
     }
+    ++list.clusters_drawn;
+    list.triangles += cluster.count / 3;
+    if (cluster.first == list.end) {
+        list.counts.back() += GLsizei(cluster.count);
+    } else {
+        list.counts.push_back(GLsizei(cluster.count));
+        list.offsets.push_back(reinterpret_cast<const void*>(std::uintptr_t(cluster.first) * 4));
+    }
+    list.end = cluster.first + cluster.count;
 }
 
 void Geometry::draw(const DrawList& list) {

@@ -12,6 +12,7 @@ struct DrawList {
     std::vector<const void*> offsets;
     int clusters_drawn = 0, clusters_culled = 0;
     long triangles = 0;
+    std::uint32_t end = ~std::uint32_t(0);  // of the last range, in indices
     bool empty() const { return counts.empty(); }
     void clear() { *this = {}; }
 };
@@ -27,6 +28,8 @@ class Geometry {
 
     /// Adds the batch's clusters that the frustum may see.
     void add_visible(const Batch& batch, const Frustum& frustum, DrawList& list) const;
+    /// One of them; clusters are added in their order.
+    void add_if_visible(std::uint32_t cluster, const Frustum& frustum, DrawList& list) const;
     void bind() const { glBindVertexArray(vertex_array_.get()); }
     /// Other indices over the same vertices, until the next call; 0: the mesh's own.
     void use_indices(GLuint buffer) const;

@@ -18,6 +18,8 @@ struct LampMap {
 /// The maps of a lamp, in the order of their layers, and the lamp's block with everything but its first layer.
 struct LampFit {
     glsl::LampBlock block;
+    float tan_half;  // of the angle that each map spans
+    bool moves = false;
     std::vector<LampMap> maps;
 };
 LampFit fit_lamp(const PlacedLight& lamp, std::size_t number, int texels);
@@ -36,7 +38,14 @@ class LampShadow {
     /// Lamps to uniform block 2, their maps to unit 8.
     void use(glsl::FrameBlock& frame) const;
 
+    bool any_spots() const;
+
   private:
+    /// Which clusters of what stands each standing lamp sees, past what stands alone (a door may open).
+    void find_lit_clusters(DrawScene& scene);
+
+    std::vector<LampFit> lit_;
+    std::uint64_t lit_version_ = 0;
     std::vector<LampFit> fits_, drawn_;
     std::vector<bool> stale_;  // by layer
     std::uint64_t drawn_version_ = 0;

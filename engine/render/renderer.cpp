@@ -210,11 +210,13 @@ void Renderer::set_pose(const Pose& pose) {
             }
         s.draw.moved.clear();
         s.draw.version += 2;  // everything is new
+        s.draw.standing_version = s.draw.version;
     } else {
         s.draw.moved.clear();
         if (moving && s.draw.parts[1]) s.draw.moved = s.draw.parts[1]->move(world_mesh(s.scene, pose, Part::Dynamic));
         if (standing) s.build_static(world_mesh(s.scene, pose, Part::Static));
         s.draw.version += standing ? 2 : s.draw.moved.empty() ? 0 : 1;
+        if (standing) s.draw.standing_version = s.draw.version;
     }
     s.find_bounds();
 }
@@ -270,7 +272,10 @@ std::vector<std::string> Renderer::State::frame_defines(Layer show, bool standin
             defines.push_back("SHADOW_TAPS 16");
             if (draw.any_veils) defines.push_back("BLEND_CASTERS " + std::to_string(kVeils));
         }
-        if (lamp_shadow.lamp_count() > 0) defines.push_back("LAMPS");
+        if (lamp_shadow.lamp_count() > 0) {
+            defines.push_back("LAMPS " + std::to_string((lamp_shadow.lamp_count() + 31) / 32));
+            if (lamp_shadow.any_spots()) defines.push_back("SPOTS");
+        }
     }
     if (standing && baked_light && shows_baked_light(show)) defines.push_back("LIGHTMAP");
     return defines;

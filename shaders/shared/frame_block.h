@@ -29,14 +29,16 @@ struct FrameBlock {
     vec4 cascades[kMaxSunLayers];  // sun * kMaxCascades + cascade: centre x, y in shadow space, texel, usable half side
 };
 
-// One punctual lamp. shadow.x: first layer of its maps (-1: none), y: 1 spot map, 6 cube faces; z: near distance,
-// w: tan of half the angle that a map spans.
+const float kLampNear = 0.01f;    // metres; nothing nearer to a lamp casts a shadow
+const float kLampBorder = 4.0f;  // texels that a map spans beyond its angle, so that a filter at the rim stays inside
+
+// One punctual lamp. A point lamp is told by the first two alone.
 struct LampBlock {
     vec4 position;   // w: 1 / range^4, 0 for infinite
-    vec4 intensity;  // cd; w: cos of the outer cone, -2 for a point lamp
+    vec4 intensity;  // cd; w: first layer of its maps
     vec4 direction;  // the way it shines, unit; w: 1 / (cos inner - cos outer)
-    vec4 axis_x;     // of a spot's map, unit; y is cross(direction, x)
-    vec4 shadow;
+    vec4 axis_x;     // of a spot's map, unit; y is cross(direction, x); w: cos of the outer cone, -2 for a point lamp
+    vec4 map;        // x: tan of half the angle that its one map spans, 0 for a cube of six
 };
 
 struct LampsBlock {
