@@ -42,20 +42,21 @@ float tap_rotation() {
     return 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
 }
 
-// Vogel's spiral: n points of equal area on the unit disc.
-vec2 disc_point(int i, int n, float turn) {
-    float angle = float(i) * 2.3999632 + turn;
-    return sqrt((float(i) + 0.5) / float(n)) * vec2(cos(angle), sin(angle));
-}
+// Taps lie on Vogel's spiral, points of equal area on a disc: each is turned by the golden angle from the one before.
+const mat2 kGoldenTurn = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
 
-// taps is 0 outside of penumbras. Software drivers run both sides of every `if` but leave a loop as soon as no pixel of a
-// group goes on, so the loops themselves are what skips the work; a constant count would be unrolled and always paid.
-float lit_penumbra(SunReceiver r, float reach, float slack, int taps) {
+// taps is 0 outside of penumbras, where one bilinear comparison says all. Software drivers run both sides of every `if` but
+// leave a loop as soon as no pixel of a group goes on, so the loops themselves are what skips the work; a constant count
+// would be unrolled and always paid.
+float lit_share(SunReceiver r, float reach, float slack, int taps) {
     float turn = tap_rotation();
+    vec2 first = vec2(cos(turn), sin(turn));
     float spread = frame.target.z / r.size;  // texels of disc radius per metre of height
     float heights = 0.0, blockers = 0.0;
+    vec2 direction = first;
     for (int i = 0; i < taps; ++i) {
-        ivec2 at = ivec2(r.texel + disc_point(i, taps, turn) * reach);
+        ivec2 at = ivec2(r.texel + direction * (reach * sqrt((float(i) + 0.5) / float(taps))));
+        direction = kGoldenTurn * direction;
         vec2 offset = vec2(at) + 0.5 - r.texel;
         float z = texelFetch(sun_depth, ivec3(at, r.layer), 0).r * r.scale;
         float height = r.depth + dot(r.gradient, offset) - z;
@@ -64,15 +65,21 @@ float lit_penumbra(SunReceiver r, float reach, float slack, int taps) {
             blockers += 1.0;
         }
     }
-    float height = heights / max(blockers, 1.0);
-    if (blockers == 0.0) taps = 0;
-    float radius = max(spread * height, 0.5);
-    // What stands much lower than the blockers (a wall that rises beside the point) does not belong to this penumbra.
-    float floor_height = max(slack, 0.1 * height);
+    float radius = 0.0;
+    if (blockers > 0.0) {
+        float height = heights / blockers;
+        radius = max(spread * height, 0.5);
+        // What stands much lower than the blockers (a wall that rises beside the point) does not belong to this penumbra.
+        slack = max(slack, 0.1 * height);
+    }
+    int count = blockers > 0.0 ? taps : 1;
     float lit = 0.0;
-    for (int i = 0; i < taps; ++i)
-        lit += lit_bilinear(r, disc_point(i, taps, turn) * radius, floor_height);
-    return taps > 0 ? lit / float(taps) : lit_bilinear(r, vec2(0.0), slack);
+    direction = first;
+    for (int i = 0; i < count; ++i) {
+        lit += lit_bilinear(r, direction * (radius * sqrt((float(i) + 0.5) / float(count))), slack);
+        direction = kGoldenTurn * direction;
+    }
+    return lit / float(count);
 }
 
 // position: world; normal: of the face, turned to the side that is seen. Zero when that side turns away from the sun.
@@ -126,7 +133,8 @@ float sun_visibility(int sun, vec3 position, vec3 normal) {
         }
         reach = closer;
     }
-    if (lit < 0.0) lit = lit_penumbra(r, reach, slack, reach > 0.75 ? SHADOW_TAPS : 0);
+    float open = lit_share(r, reach, slack, lit < 0.0 && reach > 0.75 ? SHADOW_TAPS : 0);
+    if (lit < 0.0) lit = open;
 #ifdef BLEND_CASTERS
     // A pane must not dim itself: it counts from a little behind its own plane, as steep as that is.
     float behind = r.depth - slack - 2.0 * r.size * steepness - 1.0e-3;
