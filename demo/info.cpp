@@ -70,6 +70,10 @@ nlohmann::json describe_baked(const std::filesystem::path& path) {
     if (const auto& map = baked.lightmap)
         about["lightmap"] = {{"width", map->width}, {"height", map->height}, {"components", map->basis.components},
                              {"hours", map->basis.hours}, {"triangles", map->corner_uvs.size() / 3}};
+    if (const auto& volume = baked.volume)
+        about["volume"] = {{"probes", volume->size}, {"spacing", volume->spacing}, {"components", volume->basis.components},
+                           {"hours", volume->basis.hours},
+                           {"origin", {volume->origin.x, volume->origin.y, volume->origin.z}}};
     return about;
 }
 

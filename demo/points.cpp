@@ -48,12 +48,24 @@ std::vector<Rgb> by_lightmap(const PointsOptions& options, const TracedScene& sc
     return lightmap_irradiance(*scene.loaded.baked->lightmap, scene.loaded.scene, scene.hour, points);
 }
 
+std::vector<Rgb> by_volume(const PointsOptions& options, const TracedScene& scene,
+                           const std::vector<SurfaceSample>& points) {
+    if (!scene.loaded.baked) throw UsageError("--method", "volume reads a baked file; name it with --light");
+    if (!scene.loaded.baked->volume) throw Error(options.light, "has no volume; daylit info says why");
+    const IrradianceVolume& volume = *scene.loaded.baked->volume;
+    const std::vector<float> weights = volume.basis.weights(scene.hour);
+    std::vector<Rgb> result;
+    for (const SurfaceSample& p : points) result.push_back(volume.irradiance(p.position, p.normal, weights));
+    return result;
+}
+
 /// Every method that answers "indirect irradiance at these points, at this hour" has its line here.
 std::vector<Rgb> evaluate(const PointsOptions& options, const TracedScene& scene,
                           const std::vector<SurfaceSample>& points) {
     if (options.method == "reference") return by_reference(options, scene, points);
     if (options.method == "lightmap") return by_lightmap(options, scene, points);
-    for (const char* part : {"volume", "dirmap", "antiradiance"})
+    if (options.method == "volume") return by_volume(options, scene, points);
+    for (const char* part : {"dirmap", "antiradiance"})
         if (options.method == part)
             throw Error(options.light.empty() ? std::string("--method") : options.light,
                         options.light.empty() ? options.method + " reads a baked file; name it with --light"

@@ -1,9 +1,10 @@
 #include "gi/bake.h"
 
-#include <algorithm>
+#include <cstdio>
 
 #include "gi/bake_plan.h"
 #include "gi/encode/encode_lightmap.h"
+#include "gi/encode/encode_volume.h"
 #include "gi/surface/smooth.h"
 #include "gi/transport/day_gather/day_gather.h"
 
@@ -23,24 +24,57 @@ std::string describe(const EncodedLightmap& encoded, const Texels& texels, const
            " components, " + std::to_string(bounces) + " bounces";
 }
 
-EncodedLightmap bake_lightmap(const Scene& scene, const WorldMesh& mesh, std::span<const PlacedLight> lamps,
-                              const BakePlan& plan, const BakeSettings& settings, const Progress& progress,
-                              std::string& why) {
+std::string describe(const EncodedVolume& encoded, const ProbeGrid& grid, const BakePlan& plan) {
+    const auto& size = grid.size;
+    char spacing[32];
+    std::snprintf(spacing, sizeof spacing, "%.2f m", double(grid.spacing));
+    return std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " + std::to_string(size[2]) + " probes " + spacing +
+           " apart, " + std::to_string(grid.wanted.size()) + " where something can be, " + std::to_string(encoded.buried) +
+           " of these in walls, " + std::to_string(plan.probe_rays) + " rays each, " +
+           std::to_string(encoded.volume.basis.components) + " components";
+}
+
+std::vector<Vec3> wanted_positions(const ProbeGrid& grid) {
+    std::vector<Vec3> positions;
+    for (std::uint32_t probe : grid.wanted) positions.push_back(grid.position(probe));
+    return positions;
+}
+
+/// Notes in the plan what a part came to.
+void note(std::vector<PlanItem>& plan, const char* part, const std::string& why, double error) {
+    for (PlanItem& item : plan)
+        if (item.part == part) item.why += ": " + why, item.error = error;
+}
+
+/// One solution for all parts: light at texels and probes at all hours, then a projection of it for each part.
+void bake_light(const Scene& scene, const WorldMesh& mesh, std::span<const PlacedLight> lamps, const BakePlan& plan,
+                const BakeSettings& settings, const Progress& progress, Baked& baked) {
     const RayScene rays(scene, mesh);
     const Atlas atlas = make_atlas(mesh, plan.texel_budget);
     const Texels texels = make_texels(mesh, atlas);
     const GatherScene gather = gather_scene(rays, atlas, texels, lamps);
     const GatherSettings how{.rays = plan.rays, .bounces = settings.bounces, .seed = settings.seed};
+    const ProbeGrid grid = plan.volume ? make_probe_grid(scene, plan.probe_spacing, plan.most_probes) : ProbeGrid{};
 
-    const GatherHits hits = trace_hits(gather, how, {progress, 0.02, 0.45});
-    const std::vector<Rgb> lamp_light = lamp_irradiance(gather, hits, how, {progress, 0.45, 0.5});
-    DayIrradiance day = solve_day(gather, hits, lamp_light, plan.keyframes.lighting, how, {progress, 0.5, 0.95});
+    const GatherHits hits = trace_hits(gather, how, {progress, 0.02, 0.42});
+    const ProbeHits probes = trace_probes(gather, hits, wanted_positions(grid), plan.probe_rays, how, {progress, 0.42, 0.46});
+    const std::vector<Rgb> lamp_light = lamp_irradiance(gather, hits, how, {progress, 0.46, 0.5});
+    DaySolution day = solve_day(gather, hits, probes, lamp_light, plan.keyframes.lighting, how, {progress, 0.5, 0.95});
 
-    const std::vector<bool> open = in_the_open(texels, hits);
-    day.rows = smooth(smoothing_weights(rays, texels, hits.nearness, open), day.rows, day.columns);
-    EncodedLightmap encoded = encode_lightmap(atlas, texels, day, plan.keyframes.hours, open, {.error = plan.encoding_error});
-    why = describe(encoded, texels, plan, day.bounces);
-    return encoded;
+    const TimeBasisSettings encoding{.error = plan.encoding_error};
+    if (plan.lightmap) {
+        const std::vector<bool> open = in_the_open(texels, hits);
+        day.texels.rows = smooth(smoothing_weights(rays, texels, hits.nearness, open), day.texels.rows, day.texels.columns);
+        EncodedLightmap encoded = encode_lightmap(atlas, texels, day.texels, plan.keyframes.hours, open, encoding);
+        note(baked.plan, "lightmap", describe(encoded, texels, plan, day.texels.bounces), encoded.error);
+        baked.lightmap = std::move(encoded.map);
+    }
+    if (plan.volume) {
+        EncodedVolume encoded =
+            encode_volume(grid, probes, day.probes, plan.keyframes.hours, exposures(day.texels), encoding);
+        note(baked.plan, "volume", describe(encoded, grid, plan), encoded.error);
+        baked.volume = std::move(encoded.volume);
+    }
 }
 
 }  // namespace
@@ -56,13 +90,7 @@ Baked bake(const Scene& scene, const BakeSettings& settings, const Progress& pro
     baked.light = settings.light, baked.unit = settings.unit, baked.lambert = settings.lambert;
     baked.geometry_hash = geometry_hash(mesh);
     baked.plan = plan.parts;
-    if (plan.lightmap) {
-        std::string why;
-        EncodedLightmap encoded = bake_lightmap(scene, mesh, lamps, plan, settings, progress, why);
-        baked.lightmap = std::move(encoded.map);
-        for (PlanItem& item : baked.plan)
-            if (item.part == "lightmap") item.why += ": " + why, item.error = encoded.error;
-    }
+    if (plan.lightmap || plan.volume) bake_light(scene, mesh, lamps, plan, settings, progress, baked);
     return baked;
 }
 

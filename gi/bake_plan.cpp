@@ -15,6 +15,10 @@ constexpr double kFewestTexels = 24000, kTexelsPerTriangle = 8, kPreviewTexels =
 // Rays a texel at preview; noise falls with their root, and filtering over neighbours takes a good part of the rest.
 constexpr double kPreviewRays = 96, kPreviewError = 0.10;
 constexpr int kFewestRays = 32, kMostRays = 1024;
+// Probes a step apart stand for half a figure's height; the number keeps a volume's share of a bake small.
+constexpr float kProbeSpacing = 0.75f;
+constexpr std::size_t kMostProbes = 20000;
+constexpr int kRaysOfTexelsPerProbe = 2;  // a probe looks at the whole sphere, and has no neighbours to be filtered with
 // Below this the night is as good as black: a hundredth of starlight.
 constexpr double kBlackLux = 1e-5;
 
@@ -38,11 +42,11 @@ int rays_per_texel(double error) {
 
 std::vector<PlanItem> parts_of_this_version(const SceneFacts& facts, const std::vector<std::string>& asked) {
     for (const std::string& part : asked)
-        if (part != "lightmap")
-            throw Error("--parts", "'" + part + "' is not baked by this version; lightmap is (or auto)");
+        if (part != "lightmap" && part != "volume")
+            throw Error("--parts", "'" + part + "' is not baked by this version; lightmap and volume are (or auto)");
     std::vector<PlanItem> parts = plan_parts(facts, asked);
     for (PlanItem& item : parts) {
-        if (item.part == "lightmap" || !item.done) continue;
+        if (item.part == "lightmap" || item.part == "volume" || !item.done) continue;
         item.done = false;
         item.why = "not baked by this version, though the scene has use for it (" + item.why + ")";
     }
@@ -74,11 +78,15 @@ Keyframes keyframes(const LightModel& light, double from, double to, double ever
 BakePlan plan_bake(const SceneFacts& facts, const LightModel& light, const BakeSettings& settings) {
     BakePlan plan;
     plan.parts = parts_of_this_version(facts, settings.parts);
-    plan.lightmap = std::any_of(plan.parts.begin(), plan.parts.end(),
-                                [](const PlanItem& item) { return item.part == "lightmap" && item.done; });
-    if (!plan.lightmap) return plan;
+    for (const PlanItem& item : plan.parts) {
+        plan.lightmap |= item.part == "lightmap" && item.done;
+        plan.volume |= item.part == "volume" && item.done;
+    }
+    if (!plan.lightmap && !plan.volume) return plan;
     plan.texel_budget = texel_budget(facts, settings.error);
     plan.rays = rays_per_texel(settings.error);
+    plan.probe_spacing = kProbeSpacing, plan.most_probes = kMostProbes;
+    plan.probe_rays = kRaysOfTexelsPerProbe * plan.rays;
     plan.encoding_error = 0.2 * settings.error;
     plan.keyframes = keyframes(light, settings.from_hour, settings.to_hour, settings.every_hours);
     return plan;

@@ -15,9 +15,12 @@ struct Keyframes {
 };
 struct BakePlan {
     std::vector<PlanItem> parts;   // what is baked, what is left out, and why; goes into the file
-    bool lightmap = false;
+    bool lightmap = false, volume = false;
     std::size_t texel_budget = 0;  // of the lightmap
     int rays = 0;                  // per texel
+    float probe_spacing = 1.0f;    // metres
+    std::size_t most_probes = 0;   // the spacing grows where the box would need more
+    int probe_rays = 0;
     double encoding_error = 0.0;   // at which no further time component is added
     Keyframes keyframes;
 };

@@ -27,6 +27,10 @@ layout(location = 4) in vec4 v_color;
 #ifdef LIGHTMAP
 layout(location = 5) in vec2 v_lightmap_uv;
 #endif
+#ifdef VOLUME
+layout(location = 6) in vec3 v_volume_front;
+layout(location = 7) in vec3 v_volume_back;
+#endif
 
 // Dual-source: the target becomes out_light + out_through * target in the blended pass.
 layout(location = 0, index = 0) out vec4 out_light;
@@ -147,7 +151,10 @@ void main() {
 #if defined(LIGHTMAP) && (defined(SHOW_FINAL) || defined(SHOW_INDIRECT) || defined(SHOW_IRRADIANCE) || defined(SHOW_LIGHTMAP))
     indirect = baked_irradiance(v_lightmap_uv);
 #endif
-#if defined(SHOW_IRRADIANCE) || defined(SHOW_LIGHTMAP)
+#if defined(VOLUME) && (defined(SHOW_FINAL) || defined(SHOW_INDIRECT) || defined(SHOW_IRRADIANCE) || defined(SHOW_VOLUME))
+    indirect = gl_FrontFacing ? v_volume_front : v_volume_back;
+#endif
+#if defined(SHOW_IRRADIANCE) || defined(SHOW_LIGHTMAP) || defined(SHOW_VOLUME)
     out_light = vec4((direct.irradiance + indirect) * cover, 1.0);
 #else
     // The gloss of indirect light in its rough first form: as if it came evenly from all around.

@@ -1,6 +1,9 @@
 #version 450 core
 // World-space triangles to the screen, with the attributes that the program's features need.
 #include "shaders/frame.glsl"
+#ifdef VOLUME
+#include "shaders/baked_volume.glsl"
+#endif
 layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec4 in_tangent;
@@ -22,6 +25,10 @@ layout(location = 4) out vec4 v_color;
 #ifdef LIGHTMAP
 layout(location = 5) out vec2 v_lightmap_uv;
 #endif
+#ifdef VOLUME
+layout(location = 6) out vec3 v_volume_front;  // indirect irradiance on the two sides
+layout(location = 7) out vec3 v_volume_back;
+#endif
 
 invariant gl_Position;  // the depth pre-pass computes the same
 
@@ -40,5 +47,10 @@ void main() {
 #endif
 #ifdef LIGHTMAP
     v_lightmap_uv = in_lightmap_uv;
+#endif
+#ifdef VOLUME
+    TwoSided indirect = volume_irradiance(in_position, normalize(in_normal));
+    v_volume_front = indirect.front;
+    v_volume_back = indirect.back;
 #endif
 }

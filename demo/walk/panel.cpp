@@ -64,11 +64,12 @@ void draw_weather(LightSettings& light) {
     slider("turbidity", light.turbidity, 1, 10, "%.1f");
 }
 
-void draw_layers(WalkState& state, bool baked) {
+void draw_layers(WalkState& state, const Baked* baked) {
     if (!ImGui::BeginCombo("layer", name(state.show))) return;
     for (const Layer layer : {Layer::Final, Layer::Direct, Layer::Indirect, Layer::Irradiance, Layer::Albedo,
-                              Layer::Normal, Layer::Depth, Layer::Lightmap}) {
-        if (layer == Layer::Lightmap && !baked) continue;
+                              Layer::Normal, Layer::Depth, Layer::Lightmap, Layer::Volume}) {
+        if (layer == Layer::Lightmap && !(baked && baked->lightmap)) continue;
+        if (layer == Layer::Volume && !(baked && baked->volume)) continue;
         if (ImGui::Selectable(name(layer), layer == state.show)) state.show = layer;
     }
     ImGui::EndCombo();
@@ -152,7 +153,7 @@ void draw_panel(WalkState& state, const PanelFacts& facts) {
         ImGui::PushItemWidth(190);
         draw_time(state);
         ImGui::Separator();
-        draw_layers(state, facts.baked != nullptr);
+        draw_layers(state, facts.baked);
         draw_exposure(state);
         draw_weather(state.light);
         if (!facts.scene->animations.empty()) ImGui::Checkbox("animations", &state.animate);

@@ -9,12 +9,14 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <memory>
 #include <span>
 #include <type_traits>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "shaders/shared/sh.h"
 
 namespace daylit {
 namespace {
@@ -29,6 +31,7 @@ constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kHeaderBytes = 32, kEntryBytes = 48;
 constexpr std::uint32_t kMaxSections = 64, kMaxString = 65536, kMaxPlanItems = 256;
 constexpr std::uint32_t kMaxComponents = 64, kMaxKeyframes = 4096, kMaxSide = 16384;
+constexpr std::uint32_t kMaxProbesPerSide = 4096;
 constexpr std::uint64_t kMaxSectionBytes = std::uint64_t(1) << 30;
 constexpr std::size_t kSmallSectionBytes = std::size_t(32) << 20;  // of settings, plan and time basis
 constexpr int kZstdLevel = 6;  // texels: within 2 % of level 12 in size, at a fifth of its time
@@ -182,13 +185,38 @@ void decode_plan(Reader r, Baked& baked) {
     r.expect_end();
 }
 
+void code_curves(const DayBasis& basis, Writer& w) {
+    w.put_all(basis.hours);
+    w.put_all(basis.curves);
+}
+
+/// Hours and curves of a basis whose number of components is known.
+void decode_curves(Reader& r, std::size_t keyframes, DayBasis& basis) {
+    basis.hours = r.get_all<double>(keyframes);
+    for (std::size_t i = 0; i < keyframes; ++i) {
+        const double hour = basis.hours[i];
+        if (!(hour >= 0.0 && hour <= 24.0) || (i > 0 && hour <= basis.hours[i - 1]))
+            r.fail("has hours that do not ascend from 0 to 24");
+    }
+    basis.curves = r.get_all<float>(std::size_t(basis.components) * keyframes);
+    for (float weight : basis.curves)
+        if (!std::isfinite(weight)) r.fail("holds a weight that is not finite");
+}
+
+std::vector<std::uint16_t> finite_halves(Reader& r, std::size_t count, const char* what) {
+    std::vector<std::uint16_t> halves = r.get_all<std::uint16_t>(count);
+    for (std::uint16_t half : halves)
+        if ((half & 0x7C00u) == 0x7C00u) r.fail(std::string("holds a ") + what + " that is not finite");
+    r.expect_end();
+    return halves;
+}
+
 Bytes code_lightmap(const DayLightmap& map) {
     Writer w;
     w.put(std::uint32_t(map.width)), w.put(std::uint32_t(map.height));
     w.put(std::uint32_t(map.basis.components)), w.put(std::uint32_t(map.basis.hours.size()));
     w.put(std::uint32_t(map.corner_uvs.size()));
-    w.put_all(map.basis.hours);
-    w.put_all(map.basis.curves);
+    code_curves(map.basis, w);
     return w.take();
 }
 
@@ -200,15 +228,7 @@ std::size_t decode_lightmap(Reader r, DayLightmap& map) {
     const std::size_t keyframes = r.number<std::uint32_t>(1, kMaxKeyframes, "the number of keyframes");
     const std::size_t corners = r.get<std::uint32_t>();
     if (corners % 3 != 0) r.fail("counts corners that are not three per triangle");
-    map.basis.hours = r.get_all<double>(keyframes);
-    for (std::size_t i = 0; i < keyframes; ++i) {
-        const double hour = map.basis.hours[i];
-        if (!(hour >= 0.0 && hour <= 24.0) || (i > 0 && hour <= map.basis.hours[i - 1]))
-            r.fail("has hours that do not ascend from 0 to 24");
-    }
-    map.basis.curves = r.get_all<float>(std::size_t(map.basis.components) * keyframes);
-    for (float weight : map.basis.curves)
-        if (!std::isfinite(weight)) r.fail("holds a weight that is not finite");
+    decode_curves(r, keyframes, map.basis);
     r.expect_end();
     return corners;
 }
@@ -225,10 +245,30 @@ std::size_t texel_halves(const DayLightmap& map) {
 }
 
 void decode_texels(Reader r, DayLightmap& map) {
-    map.components = r.get_all<std::uint16_t>(texel_halves(map));
-    for (std::uint16_t half : map.components)
-        if ((half & 0x7C00u) == 0x7C00u) r.fail("holds a texel that is not finite");
+    map.components = finite_halves(r, texel_halves(map), "texel");
+}
+
+Bytes code_volume(const IrradianceVolume& volume) {
+    Writer w;
+    w.put(volume.origin), w.put(volume.spacing);
+    for (int side : volume.size) w.put(std::uint32_t(side));
+    w.put(std::uint32_t(volume.basis.components)), w.put(std::uint32_t(volume.basis.hours.size()));
+    code_curves(volume.basis, w);
+    return w.take();
+}
+
+void decode_volume(Reader r, IrradianceVolume& volume) {
+    volume.origin = r.finite_vec3();
+    volume.spacing = r.get<float>();
+    if (!(volume.spacing > 0.0f && std::isfinite(volume.spacing))) r.fail("has no spacing");
+    for (int& side : volume.size) side = int(r.number<std::uint32_t>(1, kMaxProbesPerSide, "the number of probes along a side"));
+    volume.basis.components = int(r.number<std::uint32_t>(0, kMaxComponents, "the number of components"));
+    decode_curves(r, r.number<std::uint32_t>(1, kMaxKeyframes, "the number of keyframes"), volume.basis);
     r.expect_end();
+}
+
+std::size_t probe_halves(const IrradianceVolume& volume) {
+    return 3 * std::size_t(glsl::kShCoefficients) * volume.probes() * std::size_t(volume.basis.components);
 }
 
 // ---- the file around them ----
@@ -271,11 +311,13 @@ Bytes raw_bytes(const std::vector<T>& values) {
 }
 
 /// The plan with each part's share of the file.
-std::vector<PlanItem> with_bytes(std::vector<PlanItem> plan, const std::vector<Payload>& lightmap) {
+std::vector<PlanItem> with_bytes(std::vector<PlanItem> plan, const std::vector<Payload>& lightmap,
+                                 const std::vector<Payload>& volume) {
     for (PlanItem& item : plan) {
         item.bytes = 0;
-        if (item.part == "lightmap")
-            for (const Payload& p : lightmap) item.bytes += p.entry.stored;
+        for (const auto& [part, payloads] : {std::pair("lightmap", &lightmap), std::pair("volume", &volume)})
+            if (item.part == part)
+                for (const Payload& p : *payloads) item.bytes += p.entry.stored;
     }
     return plan;
 }
@@ -405,18 +447,30 @@ Baked read_baked(const Path& path) {
         decode_corner_uvs(open("LMUV", corners * sizeof(Vec2)), corners, map);
         decode_texels(open("LMTX", texel_halves(map) * sizeof(std::uint16_t)), map);
     }
+    if (find(sections, "VOLU")) {
+        IrradianceVolume& volume = baked.volume.emplace();
+        decode_volume(open("VOLU"), volume);
+        Reader r = open("VOSH", probe_halves(volume) * sizeof(std::uint16_t));
+        volume.components = finite_halves(r, probe_halves(volume), "probe");
+    }
     return baked;
 }
 
 void write_baked(const Path& path, const Baked& baked) {
-    std::vector<Payload> payloads;
+    std::vector<Payload> lightmap, volume;
     if (const auto& map = baked.lightmap) {
-        payloads.push_back(compress("LMAP", code_lightmap(*map)));
-        payloads.push_back(compress("LMUV", raw_bytes(map->corner_uvs)));
-        payloads.push_back(compress("LMTX", raw_bytes(map->components)));
+        lightmap.push_back(compress("LMAP", code_lightmap(*map)));
+        lightmap.push_back(compress("LMUV", raw_bytes(map->corner_uvs)));
+        lightmap.push_back(compress("LMTX", raw_bytes(map->components)));
     }
-    const Bytes plan = code_plan(with_bytes(baked.plan, payloads));
-    payloads.insert(payloads.begin(), {compress("SETT", code_settings(baked)), compress("PLAN", plan)});
+    if (baked.volume) {
+        volume.push_back(compress("VOLU", code_volume(*baked.volume)));
+        volume.push_back(compress("VOSH", raw_bytes(baked.volume->components)));
+    }
+    std::vector<Payload> payloads = {compress("SETT", code_settings(baked)),
+                                     compress("PLAN", code_plan(with_bytes(baked.plan, lightmap, volume)))};
+    for (std::vector<Payload>* part : {&lightmap, &volume})
+        std::move(part->begin(), part->end(), std::back_inserter(payloads));
     write_file(path, assemble(std::move(payloads)));
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/baked/day_lightmap.h"
+#include "engine/baked/irradiance_volume.h"
 #include "engine/scene/sky.h"
 
 namespace daylit {
@@ -26,6 +27,7 @@ struct Baked {
     bool lambert = false;
     std::uint64_t geometry_hash = 0;  // hash of the static WorldMesh; a mismatch means another scene
     std::optional<DayLightmap> lightmap;
+    std::optional<IrradianceVolume> volume;
     std::vector<PlanItem> plan;
 };
 

@@ -52,6 +52,7 @@ std::vector<PlanItem> plan_parts(const SceneFacts& facts, std::span<const std::s
     }
     // Asking cannot give a lightmap something to lie on.
     if (!facts.has_static()) plan.front() = lightmap(facts);
+    if (!facts.has_static() && !facts.has_dynamic()) plan[1] = {"volume", false, "no geometry"};
     return plan;
 }
 

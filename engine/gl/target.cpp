@@ -50,6 +50,13 @@ GlTexture make_texture_array(GLenum internal_format, int width, int height, int 
     return texture;
 }
 
+GlTexture make_texture_3d(GLenum internal_format, int width, int height, int depth, const TextureLook& look) {
+    GlTexture texture = make_texture(GL_TEXTURE_3D);
+    glTextureStorage3D(texture.get(), 1, internal_format, width, height, depth);
+    apply(texture.get(), look);
+    return texture;
+}
+
 GlTexture make_texture_cube_array(GLenum internal_format, int side, int cubes, const TextureLook& look) {
     GlTexture texture = make_texture(GL_TEXTURE_CUBE_MAP_ARRAY);
     glTextureStorage3D(texture.get(), 1, internal_format, side, side, 6 * cubes);

@@ -21,6 +21,7 @@ struct TextureLook {
 GlTexture make_texture_2d(GLenum internal_format, int width, int height, int levels = 1, const TextureLook& look = {});
 GlTexture make_texture_array(GLenum internal_format, int width, int height, int layers, int levels = 1,
                              const TextureLook& look = {});
+GlTexture make_texture_3d(GLenum internal_format, int width, int height, int depth, const TextureLook& look = {});
 GlTexture make_texture_cube_array(GLenum internal_format, int side, int cubes, const TextureLook& look = {});
 int mip_levels(int width, int height);
 

@@ -22,7 +22,8 @@ const char* name(PassKind pass) {
 
 bool shows_straight_light(Layer l) { return l == Layer::Final || l == Layer::Direct || l == Layer::Irradiance; }
 bool shows_baked_light(Layer l) {
-    return l == Layer::Final || l == Layer::Indirect || l == Layer::Irradiance || l == Layer::Lightmap;
+    return l == Layer::Final || l == Layer::Indirect || l == Layer::Irradiance || l == Layer::Lightmap ||
+           l == Layer::Volume;
 }
 bool shows_sky(Layer l) { return l == Layer::Final || l == Layer::Direct; }
 bool shown_as_is(Layer l) { return l == Layer::Albedo || l == Layer::Normal; }

@@ -6,6 +6,7 @@
 
 #include "engine/gl/target.h"
 #include "engine/render/baked_light.h"
+#include "engine/render/baked_volume.h"
 #include "engine/render/blend_pass.h"
 #include "engine/render/display.h"
 #include "engine/render/frame_plan.h"
@@ -64,6 +65,7 @@ const char* show_define(Layer layer) {
         case Layer::Normal: return "SHOW_NORMAL";
         case Layer::Depth: return "SHOW_DEPTH";
         case Layer::Lightmap: return "SHOW_LIGHTMAP";
+        case Layer::Volume: return "SHOW_VOLUME";
         default: return "SHOW_OTHER";  // parts that are not baked yet are black
     }
 }
@@ -80,7 +82,8 @@ struct Renderer::State {
     Lighting lighting;
 
     DrawScene draw;
-    std::optional<BakedLight> baked_light;
+    std::optional<BakedLight> baked_light;    // of what stands
+    std::optional<BakedVolume> baked_volume;  // of what moves
     SunShadow sun_shadow;
     LampShadow lamp_shadow;
     SkyPass sky;
@@ -183,6 +186,7 @@ Renderer::Renderer(const Scene& scene, const Baked* baked) : state_(std::make_un
     s.frame_buffer = make_buffer(std::vector<glsl::FrameBlock>(1), GL_DYNAMIC_STORAGE_BIT);
     s.no_attributes = make_vertex_array();
     if (baked && baked->lightmap) s.baked_light.emplace(*baked->lightmap);
+    if (baked && baked->volume) s.baked_volume.emplace(*baked->volume);
     s.sky.set_environment({});
     set_pose(pose_scene(scene));
 }
@@ -232,8 +236,8 @@ void Renderer::set_lighting(const Lighting& lighting) {
 FrameFacts Renderer::State::facts(const FrameSettings& frame) {
     FrameFacts f;
     f.show = frame.show;
-    f.baked = baked_light.has_value();
-    f.baked_stale = f.baked && baked_light->stale(frame.hour);
+    f.baked = baked_light || baked_volume;
+    f.baked_stale = (baked_light && baked_light->stale(frame.hour)) || (baked_volume && baked_volume->stale(frame.hour));
     f.suns = lighting.suns.size();
     f.any_surface = draw.parts[0] || draw.parts[1];
     if (shows_straight_light(frame.show)) {
@@ -278,6 +282,7 @@ std::vector<std::string> Renderer::State::frame_defines(Layer show, bool standin
         }
     }
     if (standing && baked_light && shows_baked_light(show)) defines.push_back("LIGHTMAP");
+    if (!standing && baked_volume && shows_baked_light(show)) defines.push_back("VOLUME");
     return defines;
 }
 
@@ -294,6 +299,8 @@ FrameReport Renderer::draw(const FrameSettings& frame) {
 
     glBindVertexArray(s.no_attributes.get());
     passes.run(PassKind::Relight, [&] {
+        if (s.baked_volume) s.baked_volume->set_hour(frame.hour);
+        if (!s.baked_light) return DrawCount{};
         s.baked_light->set_hour(frame.hour, s.draw.programs);
         return DrawCount{1, 1, 0, 0};
     });
@@ -306,6 +313,7 @@ FrameReport Renderer::draw(const FrameSettings& frame) {
         s.lamp_shadow.use(block);
     }
     if (s.baked_light) bind_texture(4, s.baked_light->texture());
+    if (s.baked_volume) s.baked_volume->bind();
     glNamedBufferSubData(s.frame_buffer.get(), 0, sizeof block, &block);
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, s.frame_buffer.get());
 

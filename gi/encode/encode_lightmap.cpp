@@ -6,12 +6,11 @@
 #include <cmath>
 #include <glm/gtc/packing.hpp>
 
+#include "gi/encode/halves.h"
+
 namespace daylit {
 namespace {
 
-// Component images are scaled so that their largest number is this: far from the end of halves (65504), and far above
-// their smallest normal one (6e-5).
-constexpr float kLargestHalf = 16384.0f;
 // Luminance times pi to which displays adapt at the least (the floor of auto_ev).
 constexpr double kDarkestExposure = 1e-4 * kPi;
 
@@ -19,8 +18,7 @@ DayRows day_rows(const DayIrradiance& day, std::span<const double> hours, const 
     DayRows result;
     result.count = rows.size();
     result.hours.assign(hours.begin(), hours.end());
-    for (std::size_t k = 0; k < hours.size(); ++k)
-        result.exposure.push_back(std::max(day.mean_total[k] + day.mean_total.back(), kDarkestExposure));
+    result.exposure = exposures(day);
     result.read = [&day, &rows](std::size_t row, Rgb* keyframes) {
         const Rgb* light = day.row(rows[row]);
         for (std::size_t k = 0; k + 1 < day.columns; ++k) keyframes[k] = light[k] + light[day.columns - 1];
@@ -37,15 +35,6 @@ std::vector<Rgb> project_all(const TimeBasis& basis, const DayRows& rows) {
         project(basis, keyframes.data(), result.data() + row * std::size_t(basis.components));
     });
     return result;
-}
-
-std::vector<float> component_scales(const std::vector<Rgb>& values, int components) {
-    std::vector<float> largest(std::size_t(components), 0.0f);
-    for (std::size_t i = 0; i < values.size(); ++i)
-        for (int c = 0; c < 3; ++c)
-            largest[i % std::size_t(components)] = std::max(largest[i % std::size_t(components)], std::abs(values[i][c]));
-    for (float& l : largest) l = l > 0.0f ? l / kLargestHalf : 1.0f;
-    return largest;
 }
 
 /// For every texel of the atlas the row that it shows; ~0u in gaps between charts.
@@ -75,6 +64,13 @@ std::vector<std::uint32_t> row_of_atlas_texel(const Atlas& atlas, const Texels& 
 
 }  // namespace
 
+std::vector<double> exposures(const DayIrradiance& day) {
+    std::vector<double> result;
+    for (std::size_t k = 0; k + 1 < day.columns; ++k)
+        result.push_back(std::max(day.mean_total[k] + day.mean_total.back(), kDarkestExposure));
+    return result;
+}
+
 EncodedLightmap encode_lightmap(const Atlas& atlas, const Texels& texels, const DayIrradiance& day,
                                 std::span<const double> hours, const std::vector<bool>& usable,
                                 const TimeBasisSettings& settings) {
@@ -92,9 +88,7 @@ EncodedLightmap encode_lightmap(const Atlas& atlas, const Texels& texels, const 
     map.corner_uvs = atlas.corner_uvs;
     map.basis = day_basis(basis, scale);
     const std::size_t components = std::size_t(basis.components);
-    std::vector<std::uint16_t> halves(3 * values.size());
-    for (std::size_t i = 0; i < values.size(); ++i)
-        for (int c = 0; c < 3; ++c) halves[3 * i + std::size_t(c)] = glm::packHalf1x16(values[i][c] / scale[i % components]);
+    const std::vector<std::uint16_t> halves = to_halves(values, scale);
 
     const std::vector<std::uint32_t> shown = row_of_atlas_texel(atlas, texels, row_of_texel);
     map.components.assign(3 * components * shown.size(), 0);

@@ -146,7 +146,7 @@ TEST_F(Bake, StopsWhenAsked) {
 
 TEST_F(Bake, RefusesPartsThatItCannotBake) {
     BakeSettings settings = quick(12.0);
-    settings.parts = {"volume"};
+    settings.parts = {"dirmap"};
     EXPECT_THROW(bake(made("furnace"), settings), std::runtime_error);
 }
 

@@ -62,6 +62,17 @@ Baked small_bake() {
     return baked;
 }
 
+/// Two probes, one component, one keyframe.
+IrradianceVolume small_volume() {
+    IrradianceVolume volume;
+    volume.origin = {1, 2, 3};
+    volume.spacing = 0.75f;
+    volume.size = {2, 1, 1};
+    volume.basis = {{12.0}, 1, {100.0f}};
+    for (int i = 0; i < 3 * 9 * 2; ++i) volume.components.push_back(glm::packHalf1x16(float(i)));
+    return volume;
+}
+
 void expect_same(const Baked& a, const Baked& b) {
     EXPECT_EQ(a.light, b.light);
     EXPECT_EQ(a.unit, b.unit);
@@ -98,6 +109,26 @@ TEST_F(BakedFile, WithoutLightmapRoundTrips) {
     baked.lightmap.reset();
     write_baked(path(), baked);
     EXPECT_FALSE(read_baked(path()).lightmap);
+}
+
+TEST_F(BakedFile, VolumeRoundTrips) {
+    for (const bool with_lightmap : {true, false}) {
+        Baked baked = small_bake();
+        if (!with_lightmap) baked.lightmap.reset();
+        baked.volume = small_volume();
+        write_baked(path(), baked);
+        const Baked read = read_baked(path());
+        EXPECT_EQ(read.lightmap.has_value(), with_lightmap);
+        ASSERT_TRUE(read.volume);
+        EXPECT_EQ(read.volume->origin, baked.volume->origin);
+        EXPECT_EQ(read.volume->spacing, baked.volume->spacing);
+        EXPECT_EQ(read.volume->size, baked.volume->size);
+        EXPECT_EQ(read.volume->basis.hours, baked.volume->basis.hours);
+        EXPECT_EQ(read.volume->basis.components, baked.volume->basis.components);
+        EXPECT_EQ(read.volume->basis.curves, baked.volume->basis.curves);
+        EXPECT_EQ(read.volume->components, baked.volume->components);
+        EXPECT_GT(read.plan[1].bytes, 0u);
+    }
 }
 
 TEST_F(BakedFile, SameBakeSameBytes) {
@@ -154,6 +185,12 @@ TEST_F(BakedFile, ImpossibleContentsAreRefused) {
     expect_refused([](Baked& b) { b.lightmap->corner_uvs[1].x = 1.5f; });
     expect_refused([](Baked& b) { b.lightmap->corner_uvs.pop_back(); });
     expect_refused([](Baked& b) { b.lightmap->width = 16384, b.lightmap->height = 16384; });
+    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->spacing = 0.0f; });
+    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->size[1] = 0; });
+    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->size = {4096, 4096, 4096}; });
+    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->components.pop_back(); });
+    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->components[5] = 0x7C00; });
+    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->basis.curves.push_back(1.0f); });
     expect_refused([](Baked& b) { b.light.turbidity = INFINITY; });
     expect_refused([](Baked& b) { b.light.sky = SkySource(200); });
 }

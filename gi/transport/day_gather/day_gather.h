@@ -3,6 +3,7 @@
 // hits, which make one big sparse matrix, are applied to all hours as columns; bounces are repeated application.
 //
 // In this first form gloss reflects like Lambert with its whole albedo, and a texel reflects with its mean albedo.
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -51,7 +52,23 @@ struct GatherScene {
 GatherScene gather_scene(const RayScene& rays, const Atlas& atlas, const Texels& texels,
                          std::span<const PlacedLight> lamps);
 
+/// Rays of probes in free space, over the whole sphere.
+struct ProbeHits {
+    int rays = 0;                          // per probe
+    std::vector<Vec3> position;            // of each probe
+    std::vector<std::uint32_t> hit;        // probes * rays, as GatherHits::hit
+    std::vector<Vec3> direction;           // of each ray as it leaves the probe
+    std::vector<bool> buried;              // per probe: inside solid geometry
+    std::vector<std::array<Rgb, 9>> emission;  // per probe: SH of radiance straight from emissive surfaces
+    std::size_t count() const { return position.size(); }
+};
+
 GatherHits trace_hits(const GatherScene& scene, const GatherSettings& settings, const StageProgress& progress);
+
+/// The same question asked in free space: what they meet are the receivers of `hits`.
+/// rays   per probe
+ProbeHits trace_probes(const GatherScene& scene, const GatherHits& hits, std::span<const Vec3> positions, int rays,
+                       const GatherSettings& settings, const StageProgress& progress);
 
 /// Straight light of punctual lamps on every receiver, lux.
 std::vector<Rgb> lamp_irradiance(const GatherScene& scene, const GatherHits& hits, const GatherSettings& settings,
@@ -74,7 +91,20 @@ struct DayIrradiance {
     Rgb* row(std::size_t texel) { return rows.data() + texel * columns; }
     const Rgb* row(std::size_t texel) const { return rows.data() + texel * columns; }
 };
-DayIrradiance solve_day(const GatherScene& scene, const GatherHits& hits, std::span<const Rgb> lamp_irradiance,
-                        std::span<const Lighting> hours, const GatherSettings& settings, const StageProgress& progress);
+/// SH of *indirect* radiance, cd/m^2: [probe][column][coefficient], columns as in DayIrradiance.
+struct DayRadiance {
+    std::size_t columns = 0;
+    std::vector<std::array<Rgb, 9>> sh;  // probes * columns
+    std::array<Rgb, 9>* row(std::size_t probe) { return sh.data() + probe * columns; }
+    const std::array<Rgb, 9>* row(std::size_t probe) const { return sh.data() + probe * columns; }
+};
+
+struct DaySolution {
+    DayIrradiance texels;
+    DayRadiance probes;
+};
+DaySolution solve_day(const GatherScene& scene, const GatherHits& hits, const ProbeHits& probes,
+                      std::span<const Rgb> lamp_irradiance, std::span<const Lighting> hours,
+                      const GatherSettings& settings, const StageProgress& progress);
 
 }  // namespace daylit

@@ -3,19 +3,15 @@
 #include <array>
 #include <cmath>
 
-#include "engine/base/random.h"
 #include "engine/scene/texture.h"
 #include "gi/transport/day_gather/day_gather.h"
 #include "gi/transport/day_gather/sequence.h"
-#include "gi/transport/path_trace/bsdf.h"
-#include "gi/transport/path_trace/lights.h"
-#include "gi/transport/path_trace/panes.h"
+#include "gi/transport/day_gather/sight.h"
 
 namespace daylit {
 namespace {
 
 constexpr std::uint32_t kBackBit = 1u << 30;  // until the backs that are seen have receivers of their own
-constexpr int kEmitterSamples = 8, kGlassEvents = 8;
 // A surface nearer than this share of a texel's width covers the point: a box standing on the floor.
 constexpr float kCovered = 0.01f;
 constexpr float kLeastUsable = 0.25f;  // share of a receiver's rays below which it is filled from neighbours instead
@@ -42,8 +38,7 @@ Points points_of(const GatherScene& scene, const Receiver& receiver) {
 class ReceiverRays {
   public:
     ReceiverRays(const GatherScene& scene, const GatherSettings& settings)
-        : scene_(scene), settings_(settings), materials_(scene.rays.scene()), emitters_(scene.rays, materials_),
-          panes_(find_panes(scene.rays.mesh(), materials_)) {}
+        : scene_(scene), settings_(settings), sight_(scene) {}
 
     void trace(std::size_t r, GatherHits& out) const {
         const Receiver receiver = out.receivers[r];
@@ -61,7 +56,7 @@ class ReceiverRays {
                          fraction(radical_inverse(std::uint32_t(j)) + turn_v));
             const Vec3 direction = Frame(points.normal[k]).to_world(sample_cosine_hemisphere(u.x, u.y));
             Ray ray{RayScene::offset_origin(points.position[k], points.normal[k], direction), direction};
-            const std::optional<Hit> met = past_glass(ray, random);
+            const std::optional<Hit> met = sight_.past_glass(ray, random);
             hit[j] = kSkyBit | sky_bin(ray.direction);
             good[k] += !met;
             if (!met) continue;
@@ -71,7 +66,7 @@ class ReceiverRays {
             good[k] += !back && met->distance > covered;
             hit[j] = texel == kNoTexel ? kNoLight : texel | (back ? kBackBit : 0u);
             nearness[std::size_t(j)] = 1.0f / std::max(met->distance, 0.1f * scene_.texels.width[receiver.texel]);
-            if (materials_.emits(scene_.rays.mesh().materials[met->triangle]))
+            if (sight_.emits(*met))
                 emitted[std::size_t(j)] = emitted_towards(ray, *met, glm::dot(direction, points.normal[k]));
         }
         reduce(r, points, good, emitted, nearness, random, out);
@@ -111,44 +106,22 @@ class ReceiverRays {
         if (!buried) out.emission[r] = float(kPi) * out.scale[r] * emission + sampled_emission(r, points, random, out);
     }
 
-    /// The nearest surface that is not glass; ray becomes its last stretch. The tint of glass decides by chance, in
-    /// luminance, whether light comes through: its colour is left to the reference and to the caustics to come.
-    std::optional<Hit> past_glass(Ray& ray, Random& random) const {
-        const WorldMesh& mesh = scene_.rays.mesh();
-        std::optional<Hit> met = scene_.rays.closest(ray, random.bits());
-        for (int events = 0; met && events < kGlassEvents && materials_.glass(mesh.materials[met->triangle]); ++events) {
-            const SurfacePoint point = scene_.rays.surface_point(ray, *met);
-            const float ior = scene_.rays.scene().materials[point.material].ior;
-            const bool pane = panes_[met->triangle], entering = glm::dot(ray.direction, met->normal) < 0.0f;
-            const float u = random.next();
-            const GlassBounce bounce = pane ? sample_pane(ray.direction, point.geometric_normal, ior, u)
-                                            : sample_glass(ray.direction, point.geometric_normal, entering ? ior : 1.0f / ior, u);
-            const float tint = luminance(materials_.color(point));
-            if (bounce.transmitted && random.next() >= (pane ? tint : std::sqrt(tint))) return met;
-            ray = {RayScene::offset_origin(point.position, point.geometric_normal, bounce.direction), bounce.direction};
-            met = scene_.rays.closest(ray, random.bits());
-        }
-        return met;
-    }
-
     // Both ways of meeting an emitter are weighed by the power heuristic (Veach 1997).
     Rgb emitted_towards(const Ray& ray, const Hit& hit, float cosine) const {
         const float by_ray = float(settings_.rays) * pdf_cosine_hemisphere(cosine);
-        const float by_light =
-            float(kEmitterSamples) * emitters_.pdf(hit.triangle, hit.distance, glm::dot(ray.direction, hit.normal));
-        return power_heuristic(by_ray, by_light) * materials_.emission(scene_.rays.surface_point(ray, hit));
+        return power_heuristic(by_ray, float(kEmitterSamples) * sight_.emitter_pdf(ray, hit)) * sight_.emission(ray, hit);
     }
 
     Rgb sampled_emission(std::size_t r, const Points& points, Random& random, const GatherHits& out) const {
         Rgb sum(0.0f);
-        if (emitters_.empty()) return sum;
+        if (sight_.emitters().empty()) return sum;
         std::array<std::size_t, kMaxPoints> usable;
         std::size_t count = 0;
         for (std::size_t k = 0; k < points.count; ++k)
             if (out.usable[r] >> k & 1u) usable[count++] = k;
         for (int s = 0; s < kEmitterSamples; ++s) {
             const std::size_t k = usable[std::min(std::size_t(random.next() * float(count)), count - 1)];
-            sum += from_sample(points.position[k], points.normal[k], emitters_.sample(points.position[k], random));
+            sum += from_sample(points.position[k], points.normal[k], sight_.emitters().sample(points.position[k], random));
         }
         return sum / float(kEmitterSamples);
     }
@@ -157,10 +130,7 @@ class ReceiverRays {
         const float cosine = glm::dot(light.direction, n);
         if (light.radiance == Rgb(0.0f) || !(light.pdf > 0.0f) || cosine <= 0.0f) return Rgb(0.0f);
         const Vec3 origin = RayScene::offset_origin(p, n, light.direction);
-        const Vec3 end = RayScene::offset_origin(p + light.distance * light.direction, light.normal, -light.direction);
-        const float length = glm::dot(end - origin, light.direction);
-        if (!(length > 0.0f)) return Rgb(0.0f);
-        const float open = scene_.rays.transmittance({origin, light.direction, 0.0f, length});
+        const float open = sight_.open(origin, p, light);
         const float weight = power_heuristic(float(kEmitterSamples) * light.pdf,
                                              float(settings_.rays) * pdf_cosine_hemisphere(cosine));
         return weight * open * cosine / light.pdf * light.radiance;
@@ -168,9 +138,7 @@ class ReceiverRays {
 
     const GatherScene& scene_;
     const GatherSettings& settings_;
-    Materials materials_;
-    EmitterSampler emitters_;
-    std::vector<bool> panes_;
+    Sight sight_;
 };
 
 /// Appends receivers with room for their rays.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gi/transport/day_gather/day_gather.h"
+#include "shaders/shared/sh.h"
 
 namespace daylit {
 namespace {
@@ -16,6 +17,13 @@ Row black() {
     Row row;
     row.fill(Rgb(0.0f));
     return row;
+}
+
+/// sum += factor * row, as one stretch of floats, which compilers vectorise.
+void add_scaled(float factor, const Row& row, Row& sum) {
+    const float* from = &row[0].x;
+    float* to = &sum[0].x;
+    for (std::size_t i = 0; i < 3 * kBlock; ++i) to[i] += factor * from[i];
 }
 
 /// Up to kBlock columns on their way through the bounces.
@@ -45,6 +53,28 @@ class Block {
             for (std::size_t c = 0; c < kBlock; ++c) leaving_[r][c] = albedo * direct[c];
         });
         count_leaving();
+    }
+
+    /// Sums from now on all that leaves receivers and sky, for probes to gather at the end.
+    void keep_all() { all_leaving_ = leaving_; }
+
+    /// SH of radiance at a probe, by what its rays met; sh holds kBlock rows.
+    void gather(const ProbeHits& probes, std::size_t p, std::array<std::array<Rgb, 9>, kBlock>& sh) const {
+        std::array<Row, 9> sum;
+        sum.fill(black());
+        const std::size_t first = p * std::size_t(probes.rays);
+        for (std::size_t j = first; j < first + std::size_t(probes.rays); ++j) {
+            const std::uint32_t hit = probes.hit[j];
+            if (hit == kNoLight) continue;
+            const Row& row = all_leaving_[hit & kSkyBit ? receivers_ + (hit & ~kSkyBit) : hit];
+            const glsl::Sh9 basis = glsl::sh_basis(probes.direction[j]);
+            for (std::size_t i = 0; i < 9; ++i)
+                add_scaled(basis.c[i], row, sum[i]);
+        }
+        // Each ray stands for 4 pi / rays of solid angle; what leaves is stored as lux, pi L.
+        const float scale = 4.0f / float(probes.rays);
+        for (std::size_t i = 0; i < 9; ++i)
+            for (std::size_t c = 0; c < kBlock; ++c) sh[c][i] = scale * sum[i][c];
     }
 
     /// One bounce; returns the share of all indirect light that it brought, the worst column's.
@@ -80,6 +110,8 @@ class Block {
                 all[c] += luminance(indirect_[r][c]);
             }
         }
+        for (std::size_t r = 0; r < std::min(receivers_, all_leaving_.size()); ++r)
+            for (std::size_t c = 0; c < kBlock; ++c) all_leaving_[r][c] += leaving_[r][c];
         std::fill(leaving_.begin() + std::ptrdiff_t(receivers_), leaving_.end(), black());
         count_leaving();
         double worst = 0.0;
@@ -98,19 +130,34 @@ class Block {
     const GatherHits& hits_;
     const GatherSettings& settings_;
     std::size_t receivers_;
-    std::vector<Row> leaving_;  // receivers, then sky bins
+    std::vector<Row> leaving_, all_leaving_;  // receivers, then sky bins
     std::vector<Row> gathered_, indirect_;
     std::array<double, kBlock> mean_leaving_{};
 };
 
+void gather_probes(const Block& block, const ProbeHits& probes, std::size_t first, std::size_t last, DayRadiance& day) {
+    const StageProgress silent{Progress{}};
+    for_each_parallel(probes.count(), silent, [&](std::size_t p) {
+        std::array<std::array<Rgb, 9>, kBlock> sh;
+        block.gather(probes, p, sh);
+        std::copy_n(sh.begin(), last - first, day.row(p) + first);
+        if (last == day.columns)
+            for (std::size_t i = 0; i < 9; ++i) day.row(p)[last - 1][i] += probes.emission[p][i];
+    });
+}
+
 }  // namespace
 
-DayIrradiance solve_day(const GatherScene& scene, const GatherHits& hits, std::span<const Rgb> lamps,
-                        std::span<const Lighting> hours, const GatherSettings& settings, const StageProgress& progress) {
-    DayIrradiance day;
+DaySolution solve_day(const GatherScene& scene, const GatherHits& hits, const ProbeHits& probes,
+                      std::span<const Rgb> lamps, std::span<const Lighting> hours, const GatherSettings& settings,
+                      const StageProgress& progress) {
+    DaySolution solution;
+    DayIrradiance& day = solution.texels;
     day.columns = hours.size() + 1;
     day.rows.assign(scene.texels.count() * day.columns, Rgb(0.0f));
     day.mean_total.assign(day.columns, 0.0);
+    solution.probes.columns = day.columns;
+    solution.probes.sh.resize(probes.count() * day.columns);
     for (std::size_t first = 0; first < day.columns; first += kBlock) {
         const std::size_t last = std::min(first + kBlock, day.columns);
         const bool constant_last = last == day.columns;
@@ -120,6 +167,7 @@ DayIrradiance solve_day(const GatherScene& scene, const GatherHits& hits, std::s
         Block block(scene, hits, settings);
         block.start(hours.subspan(first, last - first - constant_last), constant_last, lamps,
                     {progress.report, begin, middle});
+        if (probes.count() > 0) block.keep_all();
         int bounces = 0;
         while (bounces < settings.bounces) {
             const double at = end - (end - middle) * std::pow(0.7, bounces), next = end - (end - middle) * std::pow(0.7, bounces + 1);
@@ -129,9 +177,10 @@ DayIrradiance solve_day(const GatherScene& scene, const GatherHits& hits, std::s
         day.bounces = std::max(day.bounces, bounces);
         for (std::size_t t = 0; t < scene.texels.count(); ++t)
             std::copy_n(block.indirect(t).begin(), last - first, day.row(t) + first);
+        gather_probes(block, probes, first, last, solution.probes);
         for (std::size_t c = first; c < last; ++c) day.mean_total[c] = block.mean_leaving()[c - first];
     }
-    return day;
+    return solution;
 }
 
 }  // namespace daylit

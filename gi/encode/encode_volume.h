@@ -1,0 +1,23 @@
+#pragma once
+// The day's radiance at probes as the volume that the runtime reads.
+#include "engine/baked/irradiance_volume.h"
+#include "gi/encode/time_basis.h"
+#include "gi/surface/probe_grid.h"
+#include "gi/transport/day_gather/day_gather.h"
+
+namespace daylit {
+
+struct EncodedVolume {
+    IrradianceVolume volume;
+    double error = 0.0;      // of the encoding alone, measured on the halves: worst keyframe's irradiance, relative
+    std::size_t buried = 0;  // probes that were traced and found inside solid geometry
+};
+
+/// probes     the grid's wanted ones, in their order
+/// hours      of the columns but the last, which is added to each
+/// exposure   per hour, lux: what the eye is adapted to
+EncodedVolume encode_volume(const ProbeGrid& grid, const ProbeHits& probes, const DayRadiance& day,
+                            std::span<const double> hours, std::span<const double> exposure,
+                            const TimeBasisSettings& settings);
+
+}  // namespace daylit
