@@ -17,7 +17,6 @@ import sys
 
 HERE = pathlib.Path(__file__).parent
 SIZE = "160x90"
-REFERENCE_ERROR = "0.01"
 TABLE = json.loads((HERE / "cases.json").read_text())
 daylit, work = sys.argv[1], pathlib.Path(sys.argv[2])
 
@@ -58,7 +57,7 @@ def view(case):
 def renew(case):
     target = HERE / "references" / f"{case['name']}.exr"
     target.parent.mkdir(exist_ok=True)
-    run("reference", scene_file(case["scene"]), "-o", target, *view(case), "--error", REFERENCE_ERROR)
+    run("reference", scene_file(case["scene"]), "-o", target, *view(case), "--spp", case["spp"])
     print(f"renewed {target.name}", flush=True)
 
 
