@@ -6,7 +6,7 @@ namespace daylit {
 namespace {
 
 const Frustum kEverything{{}, 0};
-constexpr GLint kLampBitsLocation = 10;  // as in shaders/surface.frag
+constexpr GLint kLampBitsLocation = 10, kSunsReachLocation = 11;  // as in shaders/surface.frag
 
 void cull_faces(bool on) {
     if (on) glEnable(GL_CULL_FACE);
@@ -39,20 +39,34 @@ void DrawScene::add_visible(const Geometry& geometry, const Batch& batch, const 
     geometry.add_visible(batch, cull ? frustum : kEverything, list);
 }
 
-void set_lamp_bits(const Program& program, const LampBits& bits) {
-    if (program.has("lamp_bits")) glProgramUniform4uiv(program.get(), kLampBitsLocation, 1, bits.data());
+void set_lights(const Program& program, const Lights& lights) {
+    if (program.has("lamp_bits")) glProgramUniform4uiv(program.get(), kLampBitsLocation, 1, lights.lamps.data());
+    if (program.has("suns_reach")) glProgramUniform1ui(program.get(), kSunsReachLocation, lights.suns ? 1u : 0u);
 }
 
-std::vector<std::pair<LampBits, DrawList>> DrawScene::lists_by_lamps(const Geometry& geometry, const Batch& batch,
-                                                                     const Frustum& frustum) const {
-    std::vector<std::pair<LampBits, DrawList>> lists;
-    const bool known = &geometry == &*parts[0] && !lamp_bits.empty();
-    for (std::uint32_t i = 0; i < batch.cluster_count; ++i) {
-        const std::uint32_t cluster = batch.first_cluster + i;
-        const LampBits bits = known ? lamp_bits[cluster] : kEveryLamp;
-        auto list = std::find_if(lists.begin(), lists.end(), [&](const auto& l) { return l.first == bits; });
-        if (list == lists.end()) list = lists.insert(list, {bits, DrawList()});
-        geometry.add_if_visible(cluster, cull ? frustum : kEverything, list->second);
+std::vector<std::pair<Lights, DrawList>> DrawScene::lists_by_lights(const Geometry& geometry, const Batch& batch,
+                                                                    const Frustum& frustum, DrawCount& count) const {
+    std::vector<std::pair<Lights, DrawList>> lists;
+    const auto add = [&](const Lights& lights, std::uint32_t first, std::uint32_t indices) {
+        if (indices == 0) return;
+        auto list = std::find_if(lists.begin(), lists.end(), [&](const auto& l) { return l.first == lights; });
+        if (list == lists.end()) list = lists.insert(list, {lights, DrawList()});
+        list->second.add(first, indices);
+    };
+    const bool known = cull && &geometry == &*parts[0];
+    for (std::uint32_t c = batch.first_cluster; c < batch.first_cluster + batch.cluster_count; ++c) {
+        const Cluster& cluster = geometry.mesh().clusters[c];
+        if (cull && !may_see(frustum, cluster.bounds)) {
+            ++count.clusters_culled;
+            continue;
+        }
+        ++count.clusters_drawn;
+        Lights lights;
+        if (known && !lamp_bits.empty()) lights.lamps = lamp_bits[c];
+        const std::uint32_t reached = known && !sun_split.reached.empty() ? sun_split.reached[c] : cluster.count;
+        add(lights, cluster.first, reached);
+        lights.suns = false;
+        add(lights, cluster.first + reached, cluster.count - reached);
     }
     return lists;
 }
@@ -152,9 +166,10 @@ DrawCount DrawScene::draw_surfaces(const FrameDefines& frame_defines, const Frus
         const std::optional<Geometry>& part = parts[p];
         if (!part) continue;
         part->bind();
+        if (p == 0 && cull && !sun_split.reached.empty()) part->use_indices(sun_split.indices.get());
         for (const Batch& batch : part->mesh().batches) {
             if (coverage(material(batch)) == Coverage::Through) continue;
-            const auto lists = lists_by_lamps(*part, batch, frustum);
+            const auto lists = lists_by_lights(*part, batch, frustum, count);
             if (lists.empty()) continue;
             std::vector<std::string> defines = surface_defines(material(batch), batch.vertex_colors);
             defines.insert(defines.end(), frame_defines[p].begin(), frame_defines[p].end());
@@ -162,12 +177,13 @@ DrawCount DrawScene::draw_surfaces(const FrameDefines& frame_defines, const Frus
             program.use();
             materials->bind(batch.material);
             cull_faces(!material(batch).double_sided);
-            for (const auto& [bits, list] : lists) {
+            for (const auto& [lights, list] : lists) {
                 count.add(list);
-                set_lamp_bits(program, bits);
+                set_lights(program, lights);
                 Geometry::draw(list);
             }
         }
+        part->use_indices(0);
     }
     cull_faces(false);
     return count;

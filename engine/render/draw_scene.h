@@ -24,10 +24,22 @@ using FrameDefines = std::array<std::vector<std::string>, 2>;
 
 /// A bit for each lamp that may light something.
 using LampBits = std::array<std::uint32_t, 4>;
-inline constexpr LampBits kEveryLamp = {~0u, ~0u, ~0u, ~0u};
 
-/// Tells a surface program which lamps to evaluate.
-void set_lamp_bits(const Program& program, const LampBits& bits);
+/// The lights that may reach something.
+struct Lights {
+    LampBits lamps = {~0u, ~0u, ~0u, ~0u};
+    bool suns = true;
+    bool operator==(const Lights&) const = default;
+};
+
+/// Tells a surface program which lights to evaluate.
+void set_lights(const Program& program, const Lights& lights);
+
+/// The triangles of what stands, in each cluster first those that some sun may reach, then those in the dark.
+struct SunSplit {
+    std::vector<std::uint32_t> reached;  // indices of the first kind, by cluster; empty: not known, all may be reached
+    GlBuffer indices;
+};
 
 /// Binds a texture with its own filters, in place of a material's sampler.
 void bind_texture(GLuint unit, GLuint texture);
@@ -45,6 +57,7 @@ struct DrawScene {
     std::uint64_t version = 0;  // one more whenever a triangle has moved
     std::uint64_t standing_version = 0;  // as version, of what stands alone
     std::vector<LampBits> lamp_bits;     // by cluster of what stands; empty: every lamp may light everything
+    SunSplit sun_split;
     std::vector<Bounds> moved;  // where those were and are that moved from the version before to this one
 
     const Material& material(const Batch& batch) const { return scene.materials[batch.material]; }
@@ -66,8 +79,8 @@ struct DrawScene {
   private:
     enum class CoverageFor { Light, Eye, Clusters };
     DrawCount draw_coverage(const Mat4& clip_from_world, const Frustum& frustum, CoverageFor purpose);
-    std::vector<std::pair<LampBits, DrawList>> lists_by_lamps(const Geometry& geometry, const Batch& batch,
-                                                              const Frustum& frustum) const;
+    std::vector<std::pair<Lights, DrawList>> lists_by_lights(const Geometry& geometry, const Batch& batch,
+                                                             const Frustum& frustum, DrawCount& count) const;
     void add_visible(const Geometry& geometry, const Batch& batch, const Frustum& frustum, DrawList& list) const;
 };
 

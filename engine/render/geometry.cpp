@@ -51,6 +51,18 @@ std::vector<Bounds> Geometry::move(const WorldMesh& moved) {
     return boxes;
 }
 
+void DrawList::add(std::uint32_t first, std::uint32_t count) {
+    if (count == 0) return;
+    triangles += count / 3;
+    if (first == end) {
+        counts.back() += GLsizei(count);
+    } else {
+        counts.push_back(GLsizei(count));
+        offsets.push_back(reinterpret_cast<const void*>(std::uintptr_t(first) * 4));
+    }
+    end = first + count;
+}
+
 void Geometry::add_visible(const Batch& batch, const Frustum& frustum, DrawList& list) const {
     for (std::uint32_t i = 0; i < batch.cluster_count; ++i) add_if_visible(batch.first_cluster + i, frustum, list);
 }
@@ -62,14 +74,7 @@ void Geometry::add_if_visible(std::uint32_t number, const Frustum& frustum, Draw
         return;
     }
     ++list.clusters_drawn;
-    list.triangles += cluster.count / 3;
-    if (cluster.first == list.end) {
-        list.counts.back() += GLsizei(cluster.count);
-    } else {
-        list.counts.push_back(GLsizei(cluster.count));
-        list.offsets.push_back(reinterpret_cast<const void*>(std::uintptr_t(cluster.first) * 4));
-    }
-    list.end = cluster.first + cluster.count;
+    list.add(cluster.first, cluster.count);
 }
 
 void Geometry::draw(const DrawList& list) {

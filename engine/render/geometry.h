@@ -14,6 +14,7 @@ struct DrawList {
     long triangles = 0;
     std::uint32_t end = ~std::uint32_t(0);  // of the last range, in indices
     bool empty() const { return counts.empty(); }
+    void add(std::uint32_t first, std::uint32_t count);
     void clear() { *this = {}; }
 };
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tbb/parallel_for.h>
 
 #include "engine/gl/target.h"
+#include "engine/render/sun_reach.h"
 
 namespace daylit {
 namespace {
@@ -17,6 +19,9 @@ int veil_texels(int texels) { return std::min(texels / 2, 1024); }
 int range_levels(int texels) { return mip_levels(texels / 4, texels / 4) - 2; }
 
 }  // namespace
+
+SunShadow::SunShadow() = default;
+SunShadow::~SunShadow() = default;
 
 SunFit fit_sun(const Sun& sun, const Bounds& scene, const Vec3& eye, int texels, float nearest) {
     const Vec3 d = sun.direction;
@@ -115,6 +120,7 @@ void SunShadow::make_textures(const DrawScene& scene) {
         veils_found_ = make_query(GL_ANY_SAMPLES_PASSED);
     }
     framebuffer_ = make_framebuffer();
+    farthest_.assign(std::size_t(texture_layers_), {});
 }
 
 void SunShadow::draw_range(DrawScene& scene, int layer) {
@@ -167,6 +173,50 @@ DrawCount SunShadow::draw_veils(DrawScene& scene, const Mat4& matrix, int layer)
     return count;
 }
 
+void SunShadow::read_farthest(int layer) {
+    const int side = texels_ / 4;
+    std::vector<Vec2> range(std::size_t(side) * std::size_t(side));
+    glTextureParameteri(plain_range_.get(), GL_TEXTURE_BASE_LEVEL, 0);
+    glGetTextureSubImage(plain_range_.get(), 0, 0, 0, layer, side, side, 1, GL_RG, GL_FLOAT,
+                         GLsizei(range.size() * sizeof(Vec2)), range.data());
+    std::vector<float> farthest(range.size());
+    std::transform(range.begin(), range.end(), farthest.begin(), [](const Vec2& r) { return r.y; });
+    farthest_[std::size_t(layer)] = FarthestDepth(side, std::move(farthest));
+}
+
+bool SunShadow::any_may_reach(const TriangleCorners& triangle, bool double_sided) const {
+    for (const SunFit& fit : fits_) {
+        const std::span maps(farthest_.data() + std::size_t(fit.block.axis_x.w), fit.cascades.size());
+        if (may_reach(fit, maps, texels_, triangle, double_sided)) return true;
+    }
+    return false;
+}
+
+void SunShadow::split_triangles(DrawScene& scene) const {
+    if (!scene.parts[0]) return scene.sun_split.reached.clear();
+    const DrawMesh& mesh = scene.parts[0]->mesh();
+    scene.sun_split.reached.assign(mesh.clusters.size(), 0u);
+    std::vector<std::uint32_t> indices(mesh.indices.size());
+    tbb::parallel_for(std::size_t(0), mesh.batches.size(), [&](std::size_t b) {
+        const Batch& batch = mesh.batches[b];
+        const bool double_sided = scene.material(batch).double_sided;
+        for (std::uint32_t c = batch.first_cluster; c < batch.first_cluster + batch.cluster_count; ++c) {
+            const Cluster& cluster = mesh.clusters[c];
+            std::vector<std::uint32_t> dark;
+            auto out = indices.begin() + long(cluster.first);
+            for (auto i = mesh.indices.begin() + long(cluster.first), end = i + long(cluster.count); i != end; i += 3) {
+                if (any_may_reach({mesh.positions[i[0]], mesh.positions[i[1]], mesh.positions[i[2]]}, double_sided))
+                    out = std::copy(i, i + 3, out);
+                else
+                    dark.insert(dark.end(), i, i + 3);
+            }
+            scene.sun_split.reached[c] = cluster.count - std::uint32_t(dark.size());
+            std::copy(dark.begin(), dark.end(), out);
+        }
+    });
+    scene.sun_split.indices = make_buffer(indices);
+}
+
 DrawCount SunShadow::draw(DrawScene& scene) {
     DrawCount count;
     maps_drawn_ = 0;
@@ -189,9 +239,11 @@ DrawCount SunShadow::draw(DrawScene& scene) {
             glClearNamedFramebufferfv(fbo, GL_DEPTH, 0, &far);
             count.add(scene.draw_casters(matrix, seen));
             draw_range(scene, layer);
+            read_farthest(layer);
             if (veiled_) count.add(draw_veils(scene, matrix, layer));
         }
     glDepthFunc(GL_GREATER);
+    split_triangles(scene);
     drawn_ = fits_;
     drawn_version_ = scene.version;
     return count;

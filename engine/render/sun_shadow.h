@@ -2,6 +2,7 @@
 // Shadow maps of the suns: square cascades around the eye, each three times as wide as the one before, and the last one
 // over the whole scene. They hang on the eye's place alone (snapped to a coarse grid of whole texels), so that turning
 // the head redraws nothing and walking redraws a cascade now and then.
+#include <array>
 #include <span>
 #include <vector>
 
@@ -28,8 +29,12 @@ Mat4 cascade_matrix(const SunFit& fit, std::size_t cascade, int texels);
 /// BLEND casters that one ray of light may pass: two panes of two faces and one more surface.
 inline constexpr int kVeils = 5;
 
+class FarthestDepth;
+
 class SunShadow {
   public:
+    SunShadow();
+    ~SunShadow();
     /// Plans the maps for this frame; true when some of them must be drawn again.
     bool plan(std::span<const Sun> suns, const DrawScene& scene, const Vec3& eye, int texels);
     /// Draws what plan() found stale, at most once each.
@@ -45,6 +50,10 @@ class SunShadow {
     void draw_range(DrawScene& scene, int layer);
     DrawCount draw_veils(DrawScene& scene, const Mat4& matrix, int layer);
     int layers() const;
+    void read_farthest(int layer);
+    bool any_may_reach(const std::array<Vec3, 3>& triangle, bool double_sided) const;
+    /// Parts what stands into what some sun may reach and what surely lies in the dark.
+    void split_triangles(DrawScene& scene) const;
 
     std::vector<SunFit> fits_, drawn_;
     std::vector<std::vector<bool>> stale_;  // by sun and cascade
@@ -53,6 +62,7 @@ class SunShadow {
     int texture_layers_ = 0, texture_texels_ = 0;
     bool veiled_ = false;
     GlTexture depth_, plain_range_, range_, veils_, veil_depth_;
+    std::vector<FarthestDepth> farthest_;  // by layer
     GlQuery veils_found_;
     GlFramebuffer framebuffer_;
 };

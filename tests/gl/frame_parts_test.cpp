@@ -6,6 +6,7 @@
 #include "engine/render/culling.h"
 #include "engine/render/draw_mesh.h"
 #include "engine/render/frame_plan.h"
+#include "engine/render/sun_reach.h"
 #include "engine/render/sun_shadow.h"
 
 namespace daylit {
@@ -119,6 +120,40 @@ TEST(SunShadow, cascades_hold_the_scene_and_stay_while_the_eye_hardly_moves) {
     }
     EXPECT_LT(moved, 100);
     EXPECT_GT(moved, 0);
+}
+
+// A roof 10 m above the ground shades |x|, |z| < 5 from a sun in the zenith; its penumbra is 2 * 10 m * tan(0.267 deg) wide.
+TEST(SunReach, only_full_shadow_is_out_of_reach) {
+    Bounds box;
+    box.add({-10, 0, -10});
+    box.add({10, 10, 10});
+    constexpr int kTexels = 2048, kSide = kTexels / 4;
+    const SunFit fit = fit_sun({{0, 1, 0}, Rgb(90000)}, box, {0, 2, 0}, kTexels);
+    std::vector<FarthestDepth> maps;
+    for (const Vec4& cascade : fit.cascades) {
+        std::vector<float> farthest;
+        const float block = 4.0f * cascade.z, half = 0.5f * block * kSide;
+        for (int y = 0; y < kSide; ++y)
+            for (int x = 0; x < kSide; ++x) {
+                const Vec2 center = glm::abs(Vec2(cascade) + (Vec2(x, y) + 0.5f) * block - half);
+                const float at = std::max(center.x, center.y) + 0.5f * block < 5.0f ? 10.0f : 0.0f;
+                farthest.push_back((fit.block.direction.w - at) / fit.depth_range);
+            }
+        maps.emplace_back(kSide, std::move(farthest));
+    }
+    const auto reached = [&](const Vec3& center, float half, bool upwards = true, bool double_sided = false) {
+        const Vec3 a = center + Vec3(-half, 0, half), b = center + Vec3(half, 0, half), c = center + Vec3(0, 0, -half);
+        return may_reach(fit, maps, kTexels, upwards ? TriangleCorners{a, b, c} : TriangleCorners{a, c, b}, double_sided);
+    };
+    EXPECT_FALSE(reached({0, 0, 0}, 1.0f));
+    EXPECT_FALSE(reached({4, 0, 0}, 0.5f));
+    EXPECT_FALSE(reached({0, 0, 0}, 4.8f));  // across cascades
+    EXPECT_TRUE(reached({0, 10, 0}, 1.0f));  // the roof itself
+    EXPECT_TRUE(reached({0, 0, 0}, 6.0f));   // partly outside
+    EXPECT_TRUE(reached({4.98f, 0, 0}, 0.01f));  // in the penumbra
+    EXPECT_TRUE(reached({8, 0, 0}, 0.1f));
+    EXPECT_FALSE(reached({8, 0, 0}, 0.1f, false));  // shows its back
+    EXPECT_TRUE(reached({8, 0, 0}, 0.1f, false, true));
 }
 
 TEST(FramePlan, each_pass_says_why) {

@@ -181,6 +181,23 @@ TEST_F(RendererTest, culling_does_not_change_the_picture_gl) {
     EXPECT_EQ(a.pixels, b.pixels);
 }
 
+TEST_F(RendererTest, what_is_left_out_in_the_dark_does_not_change_the_picture_gl) {
+    std::vector<Primitive> quads = {ground(Vec3(0, 4, 0), 3, 3, 0)};  // a roof over a floor of tiles
+    for (int i = 0; i < 400; ++i) quads.push_back(ground({float(i % 20) - 9.5f, 0, float(i / 20) - 9.5f}, 0.5f, 0.5f, 0));
+    const Scene scene = scene_of(quads, {lambert(Rgb(0.8f))});
+    Renderer renderer(scene, nullptr);
+    FrameSettings frame = frame_of(from_above(16.0f, Vec3(0), 3.0f), 128, 128);
+    for (const Vec3& direction : {Vec3(0, 1, 0), Vec3(1, 2, 0.5f), Vec3(-2, 1, 1)}) {
+        renderer.set_lighting(one_sun(direction, 1000.0f));
+        frame.cull = true;
+        const int parted = pass(renderer.draw(frame), "surfaces").draws;
+        const Image a = renderer.read_radiance();
+        frame.cull = false;
+        EXPECT_GT(parted, pass(renderer.draw(frame), "surfaces").draws);  // lit tiles, dark tiles
+        EXPECT_EQ(a.pixels, renderer.read_radiance().pixels);
+    }
+}
+
 TEST_F(RendererTest, a_still_sun_costs_nothing_gl) {
     Scene scene = scene_of({ground(Vec3(0), 50, 50, 0), ground(Vec3(0, 1, 0), 1, 1, 0)}, {lambert(Rgb(0.8f))});
     scene.nodes[1].dynamic = true;
