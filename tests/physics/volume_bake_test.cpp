@@ -171,8 +171,11 @@ TEST(VolumeBake, is_left_out_with_a_reason_where_nothing_moves) {
     settings.error = 1.0;
     const Baked baked = bake(scene, settings);
     EXPECT_FALSE(baked.volume);
-    for (const PlanItem& item : baked.plan)
-        if (item.part == "volume") EXPECT_EQ(item.why, "no dynamic node");
+    for (const PlanItem& item : baked.plan) {
+        if (item.part == "volume") {
+            EXPECT_EQ(item.why, "no dynamic node");
+        }
+    }
 }
 
 TEST(ProbeGrid, follows_what_is_animated_and_stays_within_its_number) {
