@@ -4,7 +4,6 @@
 #include "shaders/material.glsl"
 #ifdef SUNS
 #include "shaders/sun_visibility.glsl"
-layout(location = 11) uniform uint suns_reach;  // 0 where what is drawn surely lies in the dark, else 1
 #endif
 #ifdef LAMPS
 #include "shaders/lamps.glsl"
@@ -59,11 +58,9 @@ Light direct_light(Brdf brdf, vec3 normal, vec3 face_normal, vec3 view) {
     under_disc.exponent = disc_widened_exponent(brdf.exponent, frame.target.z);
     for (int i = 0; i < SUNS; ++i) {
         vec3 to_sun = frame.suns[i].direction.xyz;
-        // A loop of one round, which software drivers leave where all pixels of a group do; they run both sides of an `if`.
-        for (uint wanted = dot(normal, to_sun) > 0.0 ? suns_reach : 0u; wanted != 0u; --wanted) {
-            float seen = sun_visibility(i, v_position, face_normal);
-            add_light(light, under_disc, frame.suns[i].irradiance.rgb * seen, to_sun, normal, mirrored);
-        }
+        if (dot(normal, to_sun) <= 0.0) continue;
+        float seen = sun_visibility(i, v_position, face_normal);
+        add_light(light, under_disc, frame.suns[i].irradiance.rgb * seen, to_sun, normal, mirrored);
     }
 #endif
 #ifdef LAMPS

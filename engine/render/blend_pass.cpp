@@ -72,7 +72,7 @@ DrawCount BlendPass::draw(DrawScene& scene, const View& view, const FrameDefines
         part.bind();
         const Program& program = scene.programs.get("surface.vert", "surface.frag", defines);
         program.use();
-        set_lights(program, {});
+        set_lamp_bits(program, Lights().lamps);
         scene.materials->bind(batch.material);
         if (scene.material(batch).double_sided) glDisable(GL_CULL_FACE);
         else glEnable(GL_CULL_FACE);

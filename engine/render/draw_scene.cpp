@@ -6,7 +6,7 @@ namespace daylit {
 namespace {
 
 const Frustum kEverything{{}, 0};
-constexpr GLint kLampBitsLocation = 10, kSunsReachLocation = 11;  // as in shaders/surface.frag
+constexpr GLint kLampBitsLocation = 10;  // as in shaders/surface.frag
 
 void cull_faces(bool on) {
     if (on) glEnable(GL_CULL_FACE);
@@ -39,9 +39,8 @@ void DrawScene::add_visible(const Geometry& geometry, const Batch& batch, const 
     geometry.add_visible(batch, cull ? frustum : kEverything, list);
 }
 
-void set_lights(const Program& program, const Lights& lights) {
-    if (program.has("lamp_bits")) glProgramUniform4uiv(program.get(), kLampBitsLocation, 1, lights.lamps.data());
-    if (program.has("suns_reach")) glProgramUniform1ui(program.get(), kSunsReachLocation, lights.suns ? 1u : 0u);
+void set_lamp_bits(const Program& program, const LampBits& bits) {
+    if (program.has("lamp_bits")) glProgramUniform4uiv(program.get(), kLampBitsLocation, 1, bits.data());
 }
 
 std::vector<std::pair<Lights, DrawList>> DrawScene::lists_by_lights(const Geometry& geometry, const Batch& batch,
@@ -171,15 +170,17 @@ DrawCount DrawScene::draw_surfaces(const FrameDefines& frame_defines, const Frus
             if (coverage(material(batch)) == Coverage::Through) continue;
             const auto lists = lists_by_lights(*part, batch, frustum, count);
             if (lists.empty()) continue;
-            std::vector<std::string> defines = surface_defines(material(batch), batch.vertex_colors);
-            defines.insert(defines.end(), frame_defines[p].begin(), frame_defines[p].end());
-            const Program& program = programs.get("surface.vert", "surface.frag", defines);
-            program.use();
+            const std::vector<std::string> own = surface_defines(material(batch), batch.vertex_colors);
             materials->bind(batch.material);
             cull_faces(!material(batch).double_sided);
             for (const auto& [lights, list] : lists) {
                 count.add(list);
-                set_lights(program, lights);
+                const std::vector<std::string>& more = frame_defines[lights.suns ? p : 2];
+                std::vector<std::string> defines = own;
+                defines.insert(defines.end(), more.begin(), more.end());
+                const Program& program = programs.get("surface.vert", "surface.frag", defines);
+                program.use();
+                set_lamp_bits(program, lights.lamps);
                 Geometry::draw(list);
             }
         }

@@ -19,8 +19,9 @@ struct DrawCount {
     void add(const DrawCount& other);
 };
 
-/// What the frame asks of every surface program, for the part that stands and the part that moves.
-using FrameDefines = std::array<std::vector<std::string>, 2>;
+/// What the frame asks of every surface program: for the part that stands, the part that moves, and for what stands
+/// where no sun reaches, whose programs have no code for suns: even code that is skipped costs a software driver much.
+using FrameDefines = std::array<std::vector<std::string>, 3>;
 
 /// A bit for each lamp that may light something.
 using LampBits = std::array<std::uint32_t, 4>;
@@ -32,8 +33,8 @@ struct Lights {
     bool operator==(const Lights&) const = default;
 };
 
-/// Tells a surface program which lights to evaluate.
-void set_lights(const Program& program, const Lights& lights);
+/// Tells a surface program which lamps to evaluate.
+void set_lamp_bits(const Program& program, const LampBits& bits);
 
 /// The triangles of what stands, in each cluster first those that some sun may reach, then those in the dark.
 struct SunSplit {

@@ -102,7 +102,8 @@ struct Renderer::State {
     // Frames.
     FrameFacts facts(const FrameSettings& frame);
     glsl::FrameBlock frame_block(const FrameSettings& frame) const;
-    std::vector<std::string> frame_defines(Layer show, bool standing) const;
+    FrameDefines frame_defines(Layer show) const;
+    std::vector<std::string> part_defines(Layer show, bool standing, bool suns) const;
 };
 
 namespace {
@@ -268,10 +269,14 @@ glsl::FrameBlock Renderer::State::frame_block(const FrameSettings& frame) const 
     return block;
 }
 
-std::vector<std::string> Renderer::State::frame_defines(Layer show, bool standing) const {
+FrameDefines Renderer::State::frame_defines(Layer show) const {
+    return {part_defines(show, true, true), part_defines(show, false, true), part_defines(show, true, false)};
+}
+
+std::vector<std::string> Renderer::State::part_defines(Layer show, bool standing, bool suns) const {
     std::vector<std::string> defines = {show_define(show)};
     if (shows_straight_light(show)) {
-        if (!lighting.suns.empty()) {
+        if (suns && !lighting.suns.empty()) {
             defines.push_back("SUNS " + std::to_string(lighting.suns.size()));
             defines.push_back("SHADOW_TAPS 16");
             if (draw.any_veils) defines.push_back("BLEND_CASTERS " + std::to_string(kVeils));
@@ -327,15 +332,14 @@ FrameReport Renderer::draw(const FrameSettings& frame) {
     });
     passes.run(PassKind::Surfaces, [&] {
         glDepthFunc(GL_GEQUAL);
-        const DrawCount count = s.draw.draw_surfaces(
-            {s.frame_defines(frame.show, true), s.frame_defines(frame.show, false)}, seen);
+        const DrawCount count = s.draw.draw_surfaces(s.frame_defines(frame.show), seen);
         glDepthFunc(GL_GREATER);
         return count;
     });
     glBindVertexArray(s.no_attributes.get());
     passes.run(PassKind::Sky, [&] { return s.sky.draw(s.draw.programs, s.lighting.suns.size()); });
     passes.run(PassKind::Blended, [&] {
-        return s.blend.draw(s.draw, frame.view, {s.frame_defines(frame.show, true), s.frame_defines(frame.show, false)});
+        return s.blend.draw(s.draw, frame.view, s.frame_defines(frame.show));
     });
     glBindVertexArray(s.no_attributes.get());
     passes.run(PassKind::Resolve, [&] {
