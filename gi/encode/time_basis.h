@@ -11,7 +11,7 @@
 namespace daylit {
 
 struct TimeBasisSettings {
-    int max_components = 16;
+    int max_components = 32;
     double error = 0.02;  // relative error of the worst keyframe at which no further component is added
 };
 
