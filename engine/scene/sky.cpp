@@ -2,9 +2,9 @@
 // night, and draws the map.
 //
 // Clouds (share N of the sky covered)   Kasten and Czeplak 1980: global illuminance G = G0 (1 - 0.75 N^3.4), of which
-//     the diffuse share is d0 + (1 - d0) N^2 (their 0.3 + 0.7 N^2, with this sky's own share d0 at N = 0). The clear sky
-//     keeps 1 - N of its radiance; the rest of the diffuse light has the distribution of the overcast sky of Moon and
-//     Spencer 1942, (1 + 2 sin e) / 3, and the colour of the clear global light, for clouds scatter neutrally.
+//     the diffuse share is d0 + (1 - d0) N^2 (their 0.3 + 0.7 N^2, with this sky's own share d0 at N = 0). The clear
+//     sky keeps 1 - N of its radiance; the rest of the diffuse light has the distribution of the overcast sky of Moon
+//     and Spencer 1942, (1 + 2 sin e) / 3, and the colour of the clear global light, for clouds scatter neutrally.
 // Below the horizon                     level ground of albedo 0.2, lit by sun and sky, seen from 20 m through the air
 //     of the ground: at the horizon it is the sky's own colour, so the map has no edge there.
 // Night                                 starlight and airglow, 2.5e-4 cd/m^2 everywhere (Leinert et al. 1998: a
@@ -24,8 +24,8 @@ namespace {
 
 constexpr int kMapWidth = 256, kMapHeight = 128;  // the horizon lies between rows 63 and 64
 constexpr float kGroundAlbedo = 0.2f;
-constexpr float kEyeHeight = 20.0f;           // m
-constexpr float kNightRadiance = 2.5e-4f;     // cd/m^2
+constexpr float kEyeHeight = 20.0f;                     // m
+constexpr float kNightRadiance = 2.5e-4f;               // cd/m^2
 constexpr double kAstronomicalNight = -20.0 * kDegree;  // below it the sun adds nothing to the night's own light
 
 struct CloudShares {
@@ -73,20 +73,7 @@ Image clear_map(const Atmosphere& air, const SunState& sun) {
     return map;
 }
 
-/// Mixes the overcast sky in; global is the clear light on level ground.
-void cover_with_clouds(Image& map, const CloudShares& shares, const Rgb& clear_sky, const Rgb& global) {
-    const float diffuse = shares.global * shares.diffuse * luminance(global);
-    const float from_clouds = std::max(0.0f, diffuse - shares.clear_sky * luminance(clear_sky));
-    // (1 + 2 sin e) / 3 gives 7 pi / 9 of the zenith's radiance as irradiance.
-    const Rgb zenith = luminance(global) > 0.0f ? global * float(from_clouds / luminance(global) * 9.0 / (7.0 * kPi))
-                                                : Rgb(0.0f);
-    for (int y = 0; y < kMapHeight / 2; ++y) {
-        const Rgb overcast = zenith * ((1.0f + 2.0f * std::sin(row_elevation(y))) / 3.0f);
-        for (int x = 0; x < kMapWidth; ++x) map.at(x, y) = shares.clear_sky * map.at(x, y) + overcast;
-    }
-}
-
-/// The lower half: ground under `irradiance` (sun and sky, lux) fading into the horizon's light.
+/// The lower half: ground under `irradiance` (lux) fading into the horizon's light.
 void draw_ground(Image& map, const Rgb& irradiance, const Rgb& extinction) {
     const Rgb ground = irradiance * float(kGroundAlbedo / kPi);
     for (int y = kMapHeight / 2; y < kMapHeight; ++y) {
@@ -97,6 +84,46 @@ void draw_ground(Image& map, const Rgb& irradiance, const Rgb& extinction) {
             map.at(x, y) = ground * through + horizon * (Rgb(1.0f) - through);
         }
     }
+}
+
+/// A sky with the ground that it lights.
+Environment over_ground(Image upper_half, const Rgb& extinction) {
+    Environment sky{std::move(upper_half)};
+    draw_ground(sky.map, horizontal_irradiance(sky), extinction);
+    return sky;
+}
+
+SkyParts make_sky_parts(const Rgb& extinction) {
+    SkyParts parts;
+    Image overcast(kMapWidth, kMapHeight), night(kMapWidth, kMapHeight);
+    for (int y = 0; y < kMapHeight / 2; ++y)
+        for (int x = 0; x < kMapWidth; ++x) {
+            overcast.at(x, y) = Rgb((1.0f + 2.0f * std::sin(row_elevation(y))) / 3.0f);
+            night.at(x, y) = Rgb(kNightRadiance);
+        }
+    parts.overcast = over_ground(std::move(overcast), extinction);
+    parts.night = over_ground(std::move(night), extinction);
+    parts.ground.map = Image(kMapWidth, kMapHeight);
+    draw_ground(parts.ground.map, Rgb(1.0f), extinction);
+    return parts;
+}
+
+/// Zenith of the overcast sky: what clouds add to the diffuse light on level ground, from the clear sky's and sun's.
+Rgb overcast_zenith(const Rgb& from_sky, const Rgb& from_sun, double clouds) {
+    const Rgb global = from_sky + from_sun;
+    const float total = luminance(global);
+    if (!(total > 0.0f)) return Rgb(0.0f);
+    const CloudShares shares = cloud_shares(clouds, luminance(from_sky) / total);
+    const float from_clouds =
+        std::max(0.0f, shares.global * shares.diffuse * total - shares.clear_sky * luminance(from_sky));
+    // (1 + 2 sin e) / 3 gives 7 pi / 9 of the zenith's radiance as irradiance.
+    return global * float(from_clouds / total * 9.0 / (7.0 * kPi));
+}
+
+/// into += scale * part, pixel by pixel.
+void add_part(const Rgb& scale, const Environment& part, Image& into) {
+    if (scale == Rgb(0.0f)) return;
+    for (std::size_t i = 0; i < into.pixels.size(); ++i) into.pixels[i] += scale * part.map.pixels[i];
 }
 
 std::vector<Sun> scene_suns(const std::vector<PlacedLight>& placed) {
@@ -112,9 +139,10 @@ std::vector<Sun> scene_suns(const std::vector<PlacedLight>& placed) {
 
 struct LightModel::State {
     LightSettings settings;
-    std::vector<Sun> fixed_suns;           // SunSource other than Day
-    Environment fixed_sky;                 // SkySource other than Day
-    std::unique_ptr<Atmosphere> air;       // where sun or sky follow the day
+    std::vector<Sun> fixed_suns;      // SunSource other than Day
+    Environment fixed_sky;            // SkySource other than Day
+    std::unique_ptr<Atmosphere> air;  // where sun or sky follow the day
+    SkyParts parts;                   // where the sky does
 
     State(const LightSettings& wanted, const std::vector<PlacedLight>& placed) : settings(wanted) {
         if (settings.sun == SunSource::Scene) fixed_suns = scene_suns(placed);
@@ -129,33 +157,37 @@ struct LightModel::State {
         if (settings.sun == SunSource::Day || settings.sky == SkySource::Day) {
             air = std::make_unique<Atmosphere>(settings.turbidity);
         }
+        if (settings.sky == SkySource::Day) parts = make_sky_parts(air->ground_extinction());
     }
 
     Rgb clear_sun(const SunState& sun) const {
         return air->sun_illuminance(sun.position.apparent_elevation) * sun.scale;
     }
 
-    std::vector<Sun> suns(const SunState& sun) const {
+    std::vector<Sun> unit_suns(const SunState& sun) const {
         if (settings.sun != SunSource::Day) return fixed_suns;
-        const Rgb irradiance = clear_sun(sun) * cloud_shares(settings.clouds, 0.0f).sun;
-        if (luminance(irradiance) <= 0.0f) return {};
-        return {{sun.position.direction, irradiance}};
+        if (luminance(clear_sun(sun)) <= 0.0f) return {};
+        return {{sun.position.direction, Rgb(1.0f)}};
     }
 
-    Environment day_sky(const SunState& sun) const {
-        Environment sky{clear_map(*air, sun)};
-        const Rgb from_sky = horizontal_irradiance(sky);
-        const Rgb from_sun = clear_sun(sun) * float(std::max(0.0, std::sin(sun.position.apparent_elevation)));
-        const Rgb global = from_sky + from_sun;
-        const float total = luminance(global);
-        const CloudShares shares = cloud_shares(settings.clouds, total > 0.0f ? luminance(from_sky) / total : 1.0f);
-        if (settings.clouds > 0.0) cover_with_clouds(sky.map, shares, from_sky, global);
-        for (int y = 0; y < kMapHeight / 2; ++y) {
-            for (int x = 0; x < kMapWidth; ++x) sky.map.at(x, y) += kNightRadiance;
+    Rgb sun_scale(const SunState& sun, double clouds) const {
+        if (settings.sun != SunSource::Day) return Rgb(fixed_suns.empty() ? 0.0f : 1.0f);
+        return clear_sun(sun) * cloud_shares(clouds, 0.0f).sun;
+    }
+
+    /// clear_map   of this hour, without ground; looked at under clouds only
+    LightScales scales(const SunState& sun, double clouds, const Image& clear_map) const {
+        LightScales scales{.sun = sun_scale(sun, clouds)};
+        if (settings.sky != SkySource::Day) {
+            scales.clear = fixed_sky.black() ? 0.0f : 1.0f;
+            return scales;
         }
-        const Rgb on_ground = settings.sun == SunSource::Day ? from_sun * shares.sun : Rgb(0.0f);
-        draw_ground(sky.map, horizontal_irradiance(sky) + on_ground, air->ground_extinction());
-        return sky;
+        const float slope = float(std::max(0.0, std::sin(sun.position.apparent_elevation)));
+        scales.clear = cloud_shares(clouds, 0.0f).clear_sky, scales.night = 1.0f;
+        if (settings.sun == SunSource::Day) scales.ground = slope * scales.sun;
+        if (clouds > 0.0)
+            scales.overcast = overcast_zenith(horizontal_irradiance({clear_map}), slope * clear_sun(sun), clouds);
+        return scales;
     }
 };
 
@@ -170,14 +202,50 @@ const LightSettings& LightModel::settings() const {
 }
 
 std::vector<Sun> LightModel::suns(double hour) const {
-    if (state_->settings.sun != SunSource::Day) return state_->fixed_suns;
-    return state_->suns(sun_state(state_->settings.day, hour));
+    std::vector<Sun> suns = unit_suns(hour);
+    if (state_->settings.sun != SunSource::Day || suns.empty()) return suns;
+    suns[0].irradiance = state_->sun_scale(sun_state(state_->settings.day, hour), state_->settings.clouds);
+    if (luminance(suns[0].irradiance) <= 0.0f) suns.clear();
+    return suns;
 }
 
 Lighting LightModel::at(double hour) const {
-    if (constant()) return {state_->fixed_suns, state_->fixed_sky};
+    Lighting lighting{suns(hour), clear_sky(hour), {}};
+    if (constant()) {
+        lighting.scales = state_->scales({}, 0.0, {});
+        return lighting;
+    }
     const SunState sun = sun_state(state_->settings.day, hour);
-    return {state_->suns(sun), state_->settings.sky == SkySource::Day ? state_->day_sky(sun) : state_->fixed_sky};
+    lighting.scales = state_->scales(sun, state_->settings.clouds, lighting.sky.map);
+    if (state_->settings.sky != SkySource::Day) return lighting;
+    Image& map = lighting.sky.map;
+    for (Rgb& pixel : map.pixels) pixel *= lighting.scales.clear;
+    add_part(lighting.scales.overcast, state_->parts.overcast, map);
+    add_part(lighting.scales.ground, state_->parts.ground, map);
+    add_part(Rgb(lighting.scales.night), state_->parts.night, map);
+    return lighting;
+}
+
+std::vector<Sun> LightModel::unit_suns(double hour) const {
+    if (state_->settings.sun != SunSource::Day) return state_->fixed_suns;
+    return state_->unit_suns(sun_state(state_->settings.day, hour));
+}
+
+Environment LightModel::clear_sky(double hour) const {
+    if (state_->settings.sky != SkySource::Day) return state_->fixed_sky;
+    return over_ground(clear_map(*state_->air, sun_state(state_->settings.day, hour)),
+                       state_->air->ground_extinction());
+}
+
+const SkyParts& LightModel::sky_parts() const {
+    return state_->parts;
+}
+
+LightScales LightModel::scales(double hour, double clouds) const {
+    if (constant()) return state_->scales({}, clouds, {});
+    const SunState sun = sun_state(state_->settings.day, hour);
+    const bool spread = clouds > 0.0 && state_->settings.sky == SkySource::Day;
+    return state_->scales(sun, clouds, spread ? clear_map(*state_->air, sun) : Image());
 }
 
 bool LightModel::constant() const {

@@ -7,6 +7,7 @@
 
 #include "engine/base/image.h"
 #include "engine/scene/day.h"
+#include "engine/scene/light_parts.h"
 #include "engine/scene/pose.h"
 
 namespace daylit {
@@ -37,7 +38,7 @@ enum class SkySource { Day, None, File, Constant };
 struct LightSettings {
     Day day;
     SunSource sun = SunSource::Day;
-    Vec3 sun_direction = Vec3(0, 1, 0);  // Given: towards the sun
+    Vec3 sun_direction = Vec3(0, 1, 0);   // Given: towards the sun
     Rgb sun_illuminance = Rgb(90000.0f);  // Given: lux on a plane facing it
     SkySource sky = SkySource::Day;
     std::filesystem::path sky_file;
@@ -50,6 +51,12 @@ struct LightSettings {
 struct Lighting {
     std::vector<Sun> suns;  // empty by night; SunSource::Scene may give several
     Environment sky;
+    LightScales scales;  // what the parts of LightModel were multiplied by
+};
+
+/// The parts of the day's sky that no hour changes (light_parts.h): O, G and N; empty maps where the sky is fixed.
+struct SkyParts {
+    Environment overcast, ground, night;
 };
 
 /// Computes the light of any hour; made once per scene and settings (holds the atmosphere's tables or the sky image).
@@ -68,6 +75,15 @@ class LightModel {
     std::vector<Sun> suns(double hour) const;
     /// True when the light is the same at all hours.
     bool constant() const;
+
+    /// S: the suns of at(hour) where the sun's scale is taken out.
+    std::vector<Sun> unit_suns(double hour) const;
+    /// K, at any hour. At night its map is black.
+    Environment clear_sky(double hour) const;
+    const SkyParts& sky_parts() const;
+    /// What the parts are multiplied by at this hour and cloud cover (0 to 1): at(hour) is their sum with the settings'
+    /// own. Cheap without clouds; with them as dear as at(), for clouds spread the clear sky's light.
+    LightScales scales(double hour, double clouds) const;
 
   private:
     struct State;

@@ -91,9 +91,10 @@ TEST(Atmosphere, LightIsNotMadeFromNothing) {
         for (const double elevation : {90.0, 30.0, 10.0}) {
             const double sine = std::sin(elevation * kDegree);
             const double arriving = luminance(Atmosphere::solar_illuminance()) * sine;
-            const double ground =
-                luminance(air.sun_illuminance(elevation * kDegree)) * sine + illuminance(air.clear_sky(elevation * kDegree));
-            // Of what arrives the ground (albedo 0.2) keeps four fifths; the rest may come back down from the air once more.
+            const double ground = luminance(air.sun_illuminance(elevation * kDegree)) * sine +
+                                  illuminance(air.clear_sky(elevation * kDegree));
+            // Of what arrives the ground (albedo 0.2) keeps four fifths; the rest may come back down from the air once
+            // more.
             EXPECT_LT(ground * 0.8, arriving) << turbidity << " " << elevation;
             EXPECT_GT(ground, 0.2 * arriving) << turbidity << " " << elevation;
         }
@@ -207,7 +208,8 @@ TEST(Environment, BadNumbersBecomeUsableOnes) {
     image.pixels[2] = Rgb(7e6f, 0.0f, 1.0f);
     const Environment sky = usable_environment(image, "test");
     EXPECT_EQ(sky.map.pixels[0], Rgb(0.0f, 2.0f, 0.0f));
-    EXPECT_EQ(sky.map.pixels[1], Rgb(kBrightestEnvironment, 0.0f, kBrightestEnvironment));  // 1e30 is the largest finite
+    EXPECT_EQ(sky.map.pixels[1],
+              Rgb(kBrightestEnvironment, 0.0f, kBrightestEnvironment));  // 1e30 is the largest finite
     EXPECT_EQ(sky.map.pixels[2], Rgb(7e6f, 0.0f, 1.0f));
     image.pixels[1] = Rgb(inf, 1.0f, 1.0f);
     EXPECT_EQ(usable_environment(image, "test").map.pixels[1].r, 7e6f);
@@ -265,8 +267,9 @@ TEST(LightModel, MidsummerNoonAtKoldinghus) {
 }
 
 TEST(LightModel, TwilightFallsAsMeasured) {
-    // Seidelmann (ed.), Explanatory Supplement to the Astronomical Almanac 1992, figure 9.1: horizontal illuminance of a
-    // clear sky about 700 lx at sunset, 90 lx at -3 degrees, 3.5 lx at -6, 0.008 lx at -12; the night adds to the last.
+    // Seidelmann (ed.), Explanatory Supplement to the Astronomical Almanac 1992, figure 9.1: horizontal illuminance of
+    // a clear sky about 700 lx at sunset, 90 lx at -3 degrees, 3.5 lx at -6, 0.008 lx at -12; the night adds to the
+    // last.
     const LightModel model(equator(), {});
     const auto sky_at = [&](double elevation) {
         return luminance(horizontal_irradiance(model.at(hour_at(equator().day, elevation)).sky));
@@ -316,14 +319,63 @@ TEST(LightModel, GroundBelowTheHorizonReflectsAFifth) {
     EXPECT_NEAR(luminance(light.sky.radiance(Vec3(0, -1, 0))) * kPi / arriving, 0.2, 0.004);
 }
 
+// What a bake of the parts gives is what at() shows, whatever the weather.
+TEST(LightModel, IsTheSumOfItsParts) {
+    const LightModel other_weather(LightSettings{}, {});
+    for (const double clouds : {0.0, 0.4, 1.0}) {
+        LightSettings settings;
+        settings.clouds = clouds;
+        const LightModel model(settings, {});
+        for (const double hour : {3.7, 13.4, 21.0}) {
+            const Lighting whole = model.at(hour);
+            const LightScales scales = other_weather.scales(hour, clouds);
+            EXPECT_EQ(whole.scales, scales);
+            const std::vector<Sun> unit = other_weather.unit_suns(hour);
+            ASSERT_LE(whole.suns.size(), unit.size());
+            if (whole.suns.empty()) {
+                EXPECT_EQ(scales.sun, Rgb(0.0f));
+            } else {
+                EXPECT_EQ(whole.suns[0].direction, unit[0].direction);
+                EXPECT_EQ(whole.suns[0].irradiance, scales.sun * unit[0].irradiance);
+            }
+            const Environment clear = other_weather.clear_sky(hour);
+            const SkyParts& parts = other_weather.sky_parts();
+            ASSERT_EQ(whole.sky.map.pixels.size(), clear.map.pixels.size());
+            for (std::size_t i = 0; i < clear.map.pixels.size(); ++i) {
+                const Rgb sum = scales.clear * clear.map.pixels[i] + scales.overcast * parts.overcast.map.pixels[i] +
+                                scales.ground * parts.ground.map.pixels[i] + scales.night * parts.night.map.pixels[i];
+                for (int c = 0; c < 3; ++c) ASSERT_NEAR(sum[c] / whole.sky.map.pixels[i][c], 1.0f, 1e-5f);
+            }
+        }
+    }
+}
+
+TEST(LightModel, FixedLightsArePartsAsTheyAre) {
+    LightSettings settings;
+    settings.sun = SunSource::Given;
+    settings.sun_illuminance = Rgb(30, 20, 10);
+    settings.sky = SkySource::Constant;
+    settings.sky_radiance = Rgb(3, 2, 1);
+    const LightModel model(settings, {});
+    EXPECT_EQ(model.scales(12.0, 0.5), (LightScales{.sun = Rgb(1.0f), .clear = 1.0f}));
+    EXPECT_EQ(model.at(12.0).scales, model.scales(0.0, 0.0));
+    EXPECT_EQ(model.unit_suns(12.0).at(0).irradiance, Rgb(30, 20, 10));
+    EXPECT_EQ(model.clear_sky(12.0).map.pixels, std::vector<Rgb>{Rgb(3, 2, 1)});
+    // A fixed sun over the day's sky: the ground below the horizon is not lit by it.
+    settings.sky = SkySource::Day;
+    EXPECT_EQ(LightModel(settings, {}).scales(12.0, 0.0).ground, Rgb(0.0f));
+    EXPECT_EQ(LightModel(settings, {}).scales(12.0, 0.0).sun, Rgb(1.0f));
+}
+
 TEST(LightModel, SameBytesForAnyNumberOfThreads) {
     const auto make = [] { return LightModel(LightSettings{}, {}).at(19.0); };
     const Lighting many = make();
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     const Lighting alone = make();
     ASSERT_EQ(many.sky.map.pixels.size(), alone.sky.map.pixels.size());
-    EXPECT_EQ(std::memcmp(many.sky.map.pixels.data(), alone.sky.map.pixels.data(),
-                          many.sky.map.pixels.size() * sizeof(Rgb)), 0);
+    EXPECT_EQ(
+        std::memcmp(many.sky.map.pixels.data(), alone.sky.map.pixels.data(), many.sky.map.pixels.size() * sizeof(Rgb)),
+        0);
     EXPECT_EQ(many.suns[0].irradiance, alone.suns[0].irradiance);
 }
 
