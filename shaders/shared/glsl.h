@@ -5,9 +5,9 @@
 #include <cmath>
 #include <glm/glm.hpp>
 namespace daylit::glsl {
-using glm::vec2, glm::vec3, glm::vec4, glm::mat3, glm::mat4;
-using glm::dot, glm::cross, glm::normalize, glm::length, glm::reflect, glm::mix, glm::clamp, glm::min, glm::max;
-using std::pow, std::sqrt, std::exp, std::log, std::abs, std::sin, std::cos, std::acos;
+using glm::vec2, glm::vec3, glm::vec4, glm::uvec4, glm::mat3, glm::mat4, glm::uint;
+using glm::dot, glm::cross, glm::normalize, glm::length, glm::reflect, glm::mix, glm::clamp, glm::min, glm::max, glm::abs, glm::floor, glm::step;
+using std::pow, std::sqrt, std::exp, std::log, std::sin, std::cos, std::acos;
 }  // namespace daylit::glsl
 #define SHARED_BEGIN namespace daylit::glsl {
 #define SHARED_END }

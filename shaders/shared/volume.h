@@ -1,0 +1,135 @@
+// Look-up in an irradiance volume: an octree of cubic cells, at whose corners radiance SH and its gradient are kept.
+// C++ and GLSL run this very code; what differs is where the arrays come from, see VOLUME_IN below.
+#ifndef SHADERS_SHARED_VOLUME_H
+#define SHADERS_SHARED_VOLUME_H
+#include "shaders/shared/glsl.h"
+#include "shaders/shared/sh.h"
+SHARED_BEGIN
+
+const int kVolumeMostLevels = 20;      // below the roots
+const int kVolumeNumbers = 27;         // coefficient * 3 + channel; each a vec4: value, and change per metre along x, y, z
+const uint kVolumeKind = 3u << 30;     // of a node: what the other 30 bits are
+const uint kVolumeInner = 0u;          // the first of eight children, x fastest
+const uint kVolumeCell = 1u << 30;     // a cell
+const uint kVolumeCut = 2u << 30;      // a cut: a thin wall, and a cell on either side of it
+const uint kVolumeNearest = 3u << 30;  // nothing of its own: the nearest cell, for what strays
+
+struct VolumeGrid {
+    vec4 frame;  // xyz: the first corner, metres; w: 1 / side of a root
+    vec4 size;   // roots along x, y, z
+};
+struct VolumeCell {
+    vec4 box;    // xyz: the first corner, metres; w: side
+    uvec4 low;   // records of the corners, x fastest: the four of smaller z
+    uvec4 high;  // and the four of larger z
+};
+struct VolumeCut {
+    vec4 plane;   // in front where dot(xyz, place) + w >= 0
+    uvec4 nodes;  // in front, behind
+};
+
+SHARED_END
+#ifdef __cplusplus
+namespace daylit::glsl {
+/// The arrays of a volume at one hour.
+struct VolumeArrays {
+    VolumeGrid grid;
+    const uint* nodes;
+    const VolumeCell* cells;
+    const VolumeCut* cuts;
+    const vec4* records;  // kVolumeNumbers each
+};
+}  // namespace daylit::glsl
+#define VOLUME_IN const VolumeArrays &arrays,
+#define VOLUME_ARRAYS arrays,
+#define VOLUME_GRID arrays.grid
+#define VOLUME_NODE(i) arrays.nodes[i]
+#define VOLUME_CELL(i) arrays.cells[i]
+#define VOLUME_CUT(i) arrays.cuts[i]
+#define VOLUME_RECORD(i) arrays.records[i]
+#else
+// A program defines VOLUME_GRID, VOLUME_NODE(i), VOLUME_CELL(i), VOLUME_CUT(i) and VOLUME_RECORD(i) before.
+#define VOLUME_IN
+#define VOLUME_ARRAYS
+#endif
+SHARED_BEGIN
+
+struct VolumePlace {
+    uint cell;
+    vec3 t;  // inside the cell, [0,1]
+};
+
+// Any finite place; beside the volume, the nearest place inside.
+SHARED_FN VolumePlace volume_place(VOLUME_IN vec3 place) {
+    VolumeGrid grid = VOLUME_GRID;
+    vec3 size = vec3(grid.size.x, grid.size.y, grid.size.z);
+    vec3 inside = clamp((place - vec3(grid.frame.x, grid.frame.y, grid.frame.z)) * grid.frame.w, vec3(0.0f), size);
+    vec3 root = min(floor(inside), size - vec3(1.0f));
+    vec3 t = inside - root;
+    uint node = VOLUME_NODE(uint((root.z * size.y + root.y) * size.x + root.x));
+    for (int level = 0; level < kVolumeMostLevels && (node & kVolumeKind) == kVolumeInner; ++level) {
+        vec3 half_t = 2.0f * t;
+        vec3 upper = step(vec3(1.0f), half_t);
+        t = half_t - upper;
+        node = VOLUME_NODE(node + uint(upper.x + 2.0f * upper.y + 4.0f * upper.z));
+    }
+    if ((node & kVolumeKind) == kVolumeCut) {
+        VolumeCut wall = VOLUME_CUT(node & ~kVolumeKind);
+        bool front = wall.plane.x * place.x + wall.plane.y * place.y + wall.plane.z * place.z + wall.plane.w >= 0.0f;
+        node = front ? wall.nodes.x : wall.nodes.y;
+    }
+    if ((node & kVolumeKind) == kVolumeNearest) {
+        vec4 box = VOLUME_CELL(node & ~kVolumeKind).box;
+        t = clamp((place - vec3(box.x, box.y, box.z)) / box.w, vec3(0.0f), vec3(1.0f));
+    }
+    VolumePlace found;
+    found.cell = node & ~kVolumeKind;
+    found.t = t;
+    return found;
+}
+
+// How much a corner's value (x) and its change along x, y, z (yzw) count at t in a cell of this side: Adini's cubic
+// element, Hermite along each axis and fourth order with values and gradients alone (Adini and Clough 1961).
+SHARED_FN vec4 volume_corner_weights(int corner, vec3 t, float side) {
+    vec3 at = vec3(float(corner & 1), float((corner >> 1) & 1), float(corner >> 2));
+    vec3 u = abs(t - at), rest = vec3(1.0f) - u;
+    float w = rest.x * rest.y * rest.z;
+    vec3 bend = u * (vec3(1.0f) - 2.0f * u);
+    vec3 slope = (w * side) * (t - at) * rest;
+    return vec4(w * (1.0f + bend.x + bend.y + bend.z), slope.x, slope.y, slope.z);
+}
+
+struct VolumeSh {
+    vec3 c[9];
+};
+
+// Radiance SH at a place of a cell.
+SHARED_FN VolumeSh volume_sh(VOLUME_IN VolumePlace at) {
+    VolumeCell cell = VOLUME_CELL(at.cell);
+    vec4 sum[kVolumeNumbers];
+    for (int i = 0; i < kVolumeNumbers; ++i) sum[i] = vec4(0.0f);
+    for (int corner = 0; corner < 8; ++corner) {
+        vec4 weights = volume_corner_weights(corner, at.t, cell.box.w);
+        uint first = uint(kVolumeNumbers) * (corner < 4 ? cell.low[corner] : cell.high[corner - 4]);
+        for (int i = 0; i < kVolumeNumbers; ++i) sum[i] += weights * VOLUME_RECORD(first + uint(i));
+    }
+    VolumeSh sh;
+    for (int i = 0; i < kShCoefficients; ++i)
+        for (int channel = 0; channel < 3; ++channel) {
+            vec4 parts = sum[3 * i + channel];
+            sh.c[i][channel] = (parts.x + parts.y) + (parts.z + parts.w);
+        }
+    return sh;
+}
+
+// Irradiance on a plane with this unit normal, and (odd = -1) on its back; never negative.
+SHARED_FN vec3 volume_irradiance(VolumeSh sh, vec3 normal, float odd) {
+    Sh9 lobe = sh_irradiance_weights(normal);
+    vec3 sum = lobe.c[0] * sh.c[0];
+    for (int i = 1; i < 4; ++i) sum += (odd * lobe.c[i]) * sh.c[i];
+    for (int i = 4; i < 9; ++i) sum += lobe.c[i] * sh.c[i];
+    return max(sum, vec3(0.0f));
+}
+
+SHARED_END
+#endif
