@@ -17,8 +17,8 @@ struct PlanItem {
     std::string part;  // lightmap, volume, dirmap, antiradiance, caustics
     bool done = false;
     std::string why;
-    std::uint64_t bytes = 0;    // in the file
-    double error = -1.0;        // relative error estimate, < 0: none
+    std::uint64_t bytes = 0;  // in the file
+    double error = -1.0;      // relative error estimate, < 0: none
 };
 
 struct Baked {
@@ -34,9 +34,14 @@ struct Baked {
 /// xxHash64 over positions, normals and indices of the static mesh.
 std::uint64_t geometry_hash(const WorldMesh& static_mesh);
 
-/// throws Error for damaged, truncated, foreign or newer files; every section is checksummed and sizes are checked
-/// before memory is taken.
-Baked read_baked(const std::filesystem::path& path);
+/// Which parts of a file are loaded; the others stay on the disk, unread and unchecked.
+struct BakedParts {
+    bool lightmap = true, volume = true;
+};
+
+/// throws Error for damaged, truncated, foreign or newer files; every section that is read is checksummed and sizes are
+/// checked before memory is taken.
+Baked read_baked(const std::filesystem::path& path, const BakedParts& wanted = {});
 void write_baked(const std::filesystem::path& path, const Baked& baked);
 
 /// throws Error naming both files when `baked` was made for other geometry.

@@ -1,0 +1,12 @@
+#pragma once
+// The day lightmap in a file: sections 'LMAP', 'LMUV', 'LMTX'.
+#include "engine/baked/day_lightmap.h"
+#include "engine/baked/section_file.h"
+
+namespace daylit {
+
+std::vector<CodedSection> code_lightmap(const DayLightmap& map);
+bool has_lightmap(const SectionFile& file);
+DayLightmap read_lightmap(const SectionFile& file);
+
+}  // namespace daylit
