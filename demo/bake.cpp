@@ -18,7 +18,7 @@ namespace {
 
 struct BakeOptions {
     SceneOptions scene;
-    std::string output, quality = "preview", parts = "auto", hours = "0-24", every = "30m";
+    std::string output, quality = "preview", parts = "auto", hours = "0-24", every = "5m";
     double error = 0.0;
     int bounces = 64, threads = 0;
     std::uint64_t seed = 1;
@@ -107,7 +107,7 @@ void add_bake(CLI::App& app) {
     command->add_option("--parts", options->parts, "auto, or a list of lightmap, volume, dirmap, antiradiance, caustics")
         ->group(group)->capture_default_str();
     command->add_option("--hours", options->hours, "FROM-TO, local clock")->group(group)->capture_default_str();
-    command->add_option("--every", options->every, "time between keyframes, as in 5m or 0.5h")->group(group)->capture_default_str();
+    command->add_option("--every", options->every, "time between the hours that are baked, as in 5m or 0.5h")->group(group)->capture_default_str();
     command->add_option("--bounces", options->bounces, "at most; ends when the rest no longer counts")->group(group)->capture_default_str();
     command->add_option("--seed", options->seed, "of the random numbers")->group(group)->capture_default_str();
     command->add_option("--threads", options->threads, "0: all cores")->group(group)->capture_default_str();

@@ -18,19 +18,37 @@ std::vector<bool> in_the_open(const Texels& texels, const GatherHits& hits) {
     return open;
 }
 
-std::string describe(const EncodedLightmap& encoded, const Texels& texels, const BakePlan& plan, int bounces) {
+std::string describe(const EncodedLightmap& encoded, const Texels& texels, const BakePlan& plan,
+                     const DaySolution& day) {
+    char error[32];
+    std::snprintf(error, sizeof error, "%.4f", day.basis.error);
     return std::to_string(texels.count()) + " texels, " + std::to_string(plan.rays) + " rays each, " +
-           std::to_string(plan.keyframes.hours.size()) + " keyframes in " + std::to_string(encoded.map.basis.components) +
-           " components, " + std::to_string(bounces) + " bounces";
+           std::to_string(plan.hours.size()) + " hours in " + std::to_string(day.basis.components) +
+           " components (error " + error + "), " + std::to_string(day.bounces) + " bounces; kept as " +
+           std::to_string(encoded.map.basis.hours.size()) + " keyframes in " +
+           std::to_string(encoded.map.basis.components) + " components";
+}
+
+/// The hours that the file keeps: at most half an hour apart where hours are baked more closely.
+std::vector<Keyframe> choose_keyframes(const LightModel& light, const std::vector<double>& hours) {
+    constexpr double kApart = 0.5 - 1e-6;
+    std::vector<Keyframe> result;
+    for (std::size_t k = 0; k < hours.size(); ++k) {
+        const bool next_is_late =
+            k + 1 < hours.size() && !result.empty() && hours[k + 1] - hours[result.back().hour] > kApart + 2e-6;
+        if (k > 0 && k + 1 < hours.size() && hours[k] - hours[result.back().hour] < kApart && !next_is_late) continue;
+        result.push_back({k, light.scales(hours[k], light.settings().clouds)});
+    }
+    return result;
 }
 
 std::string describe(const EncodedVolume& encoded, const ProbeGrid& grid, const BakePlan& plan) {
     const auto& size = grid.size;
     char spacing[32];
     std::snprintf(spacing, sizeof spacing, "%.2f m", double(grid.spacing));
-    return std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " + std::to_string(size[2]) + " probes " + spacing +
-           " apart, " + std::to_string(grid.wanted.size()) + " where something can be, " + std::to_string(encoded.buried) +
-           " of these in walls, " + std::to_string(plan.probe_rays) + " rays each, " +
+    return std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " + std::to_string(size[2]) + " probes " +
+           spacing + " apart, " + std::to_string(grid.wanted.size()) + " where something can be, " +
+           std::to_string(encoded.buried) + " of these in walls, " + std::to_string(plan.probe_rays) + " rays each, " +
            std::to_string(encoded.volume.basis.components) + " components";
 }
 
@@ -47,8 +65,8 @@ void note(std::vector<PlanItem>& plan, const char* part, const std::string& why,
 }
 
 /// One solution for all parts: light at texels and probes at all hours, then a projection of it for each part.
-void bake_light(const Scene& scene, const WorldMesh& mesh, std::span<const PlacedLight> lamps, const BakePlan& plan,
-                const BakeSettings& settings, const Progress& progress, Baked& baked) {
+void bake_light(const Scene& scene, const WorldMesh& mesh, std::span<const PlacedLight> lamps, const LightModel& light,
+                const BakePlan& plan, const BakeSettings& settings, const Progress& progress, Baked& baked) {
     const RayScene rays(scene, mesh);
     const Atlas atlas = make_atlas(mesh, plan.texel_budget);
     const Texels texels = make_texels(mesh, atlas);
@@ -57,21 +75,22 @@ void bake_light(const Scene& scene, const WorldMesh& mesh, std::span<const Place
     const ProbeGrid grid = plan.volume ? make_probe_grid(scene, plan.probe_spacing, plan.most_probes) : ProbeGrid{};
 
     const GatherHits hits = trace_hits(gather, how, {progress, 0.02, 0.42});
-    const ProbeHits probes = trace_probes(gather, hits, wanted_positions(grid), plan.probe_rays, how, {progress, 0.42, 0.46});
+    const ProbeHits probes =
+        trace_probes(gather, hits, wanted_positions(grid), plan.probe_rays, how, {progress, 0.42, 0.46});
     const std::vector<Rgb> lamp_light = lamp_irradiance(gather, hits, how, {progress, 0.46, 0.5});
-    DaySolution day = solve_day(gather, hits, probes, lamp_light, plan.keyframes.lighting, how, {progress, 0.5, 0.95});
+    DaySolution day = solve_day(gather, hits, lamp_light, day_light(light, plan.hours), how, {progress, 0.5, 0.95});
+    const std::vector<Keyframe> keyframes = choose_keyframes(light, plan.hours);
 
     const TimeBasisSettings encoding{.error = plan.encoding_error};
     if (plan.lightmap) {
         const std::vector<bool> open = in_the_open(texels, hits);
-        day.texels.rows = smooth(smoothing_weights(rays, texels, hits.nearness, open), day.texels.rows, day.texels.columns);
-        EncodedLightmap encoded = encode_lightmap(atlas, texels, day.texels, plan.keyframes.hours, open, encoding);
-        note(baked.plan, "lightmap", describe(encoded, texels, plan, day.texels.bounces), encoded.error);
+        day.texels = smooth(smoothing_weights(rays, texels, hits.nearness, open), day.texels, day.basis.components);
+        EncodedLightmap encoded = encode_lightmap(atlas, texels, day, keyframes, open, encoding);
+        note(baked.plan, "lightmap", describe(encoded, texels, plan, day), encoded.error);
         baked.lightmap = std::move(encoded.map);
     }
     if (plan.volume) {
-        EncodedVolume encoded =
-            encode_volume(grid, probes, day.probes, plan.keyframes.hours, exposures(day.texels), encoding);
+        EncodedVolume encoded = encode_volume(grid, probes, day, keyframes, encoding);
         note(baked.plan, "volume", describe(encoded, grid, plan), encoded.error);
         baked.volume = std::move(encoded.volume);
     }
@@ -90,7 +109,7 @@ Baked bake(const Scene& scene, const BakeSettings& settings, const Progress& pro
     baked.light = settings.light, baked.unit = settings.unit, baked.lambert = settings.lambert;
     baked.geometry_hash = geometry_hash(mesh);
     baked.plan = plan.parts;
-    if (plan.lightmap || plan.volume) bake_light(scene, mesh, lamps, plan, settings, progress, baked);
+    if (plan.lightmap || plan.volume) bake_light(scene, mesh, lamps, light, plan, settings, progress, baked);
     return baked;
 }
 

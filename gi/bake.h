@@ -12,7 +12,7 @@ struct BakeSettings {
     bool lambert = false;
     double error = 0.10;  // target relative error of a texel's irradiance: sets rays per texel, texel size, components
     double from_hour = 0.0, to_hour = 24.0;
-    double every_hours = 0.5;
+    double every_hours = 1.0 / 12.0;
     int bounces = 64;  // at most; ends when the rest no longer counts
     std::uint64_t seed = 1;
     std::vector<std::string> parts;  // empty: auto

@@ -18,16 +18,10 @@ constexpr int kFewestRays = 32, kMostRays = 1024;
 // Probes a step apart stand for half a figure's height; the number keeps a volume's share of a bake small.
 constexpr float kProbeSpacing = 0.75f;
 constexpr std::size_t kMostProbes = 20000;
-constexpr int kRaysOfTexelsPerProbe = 2;  // a probe looks at the whole sphere, and has no neighbours to be filtered with
-// Below this the night is as good as black: a hundredth of starlight.
-constexpr double kBlackLux = 1e-5;
-
-bool dark(const Lighting& lighting) {
-    if (!lighting.suns.empty()) return false;
-    for (const Rgb& radiance : lighting.sky.map.pixels)
-        if (kPi * double(luminance(radiance)) > kBlackLux) return false;
-    return true;
-}
+constexpr int kRaysOfTexelsPerProbe =
+    2;  // a probe looks at the whole sphere, and has no neighbours to be filtered with
+// Below it the sun adds nothing to the night's own light (engine/scene/sky.cpp draws no sky there).
+constexpr double kDeepNight = -20.0 * kDegree;
 
 std::size_t texel_budget(const SceneFacts& facts, double error) {
     const double finer = kPreviewError / error;
@@ -55,22 +49,19 @@ std::vector<PlanItem> parts_of_this_version(const SceneFacts& facts, const std::
 
 }  // namespace
 
-Keyframes keyframes(const LightModel& light, double from, double to, double every) {
-    if (light.constant()) return {{from}, {light.at(from)}};
-    Keyframes all, kept;
+std::vector<double> baked_hours(const LightModel& light, double from, double to, double every) {
+    if (light.constant()) return {from};
+    std::vector<double> all, kept;
     const int steps = int(std::floor((to - from) / every + 1e-6));
-    for (int i = 0; i <= steps; ++i) all.hours.push_back(from + i * every);
-    if (all.hours.back() < to - 1e-6) all.hours.push_back(to);
-    for (double hour : all.hours) all.lighting.push_back(light.at(hour));
+    for (int i = 0; i <= steps; ++i) all.push_back(from + i * every);
+    if (all.back() < to - 1e-6) all.push_back(to);
 
-    std::vector<bool> is_dark;
-    for (const Lighting& lighting : all.lighting) is_dark.push_back(dark(lighting));
-    for (std::size_t i = 0; i < all.hours.size(); ++i) {
-        const bool beside_light = (i > 0 && !is_dark[i - 1]) || (i + 1 < all.hours.size() && !is_dark[i + 1]);
-        const bool only = i == 0 && std::find(is_dark.begin(), is_dark.end(), false) == is_dark.end();
-        if (is_dark[i] && !beside_light && !only) continue;
-        kept.hours.push_back(all.hours[i]);
-        kept.lighting.push_back(std::move(all.lighting[i]));
+    std::vector<bool> dark;
+    for (double hour : all) dark.push_back(sun_position(light.settings().day, hour).apparent_elevation < kDeepNight);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const bool beside_light = (i > 0 && !dark[i - 1]) || (i + 1 < all.size() && !dark[i + 1]);
+        const bool only = i == 0 && std::find(dark.begin(), dark.end(), false) == dark.end();
+        if (!dark[i] || beside_light || only) kept.push_back(all[i]);
     }
     return kept;
 }
@@ -88,7 +79,7 @@ BakePlan plan_bake(const SceneFacts& facts, const LightModel& light, const BakeS
     plan.probe_spacing = kProbeSpacing, plan.most_probes = kMostProbes;
     plan.probe_rays = kRaysOfTexelsPerProbe * plan.rays;
     plan.encoding_error = 0.2 * settings.error;
-    plan.keyframes = keyframes(light, settings.from_hour, settings.to_hour, settings.every_hours);
+    plan.hours = baked_hours(light, settings.from_hour, settings.to_hour, settings.every_hours);
     return plan;
 }
 

@@ -7,27 +7,23 @@
 
 namespace daylit {
 
-/// Light at the hours that are baked: every `every`, from `from` to `to`, without those in the middle of the night,
-/// where nothing moves; one hour alone when the light is always the same.
-struct Keyframes {
-    std::vector<double> hours;
-    std::vector<Lighting> lighting;
-};
 struct BakePlan {
-    std::vector<PlanItem> parts;   // what is baked, what is left out, and why; goes into the file
+    std::vector<PlanItem> parts;  // what is baked, what is left out, and why; goes into the file
     bool lightmap = false, volume = false;
     std::size_t texel_budget = 0;  // of the lightmap
     int rays = 0;                  // per texel
     float probe_spacing = 1.0f;    // metres
     std::size_t most_probes = 0;   // the spacing grows where the box would need more
     int probe_rays = 0;
-    double encoding_error = 0.0;   // at which no further time component is added
-    Keyframes keyframes;
+    double encoding_error = 0.0;  // at which no further time component is added
+    std::vector<double> hours;    // at which sun and sky are known
 };
 
 /// throws Error when settings ask for parts that this version does not bake.
 BakePlan plan_bake(const SceneFacts& facts, const LightModel& light, const BakeSettings& settings);
 
-Keyframes keyframes(const LightModel& light, double from, double to, double every);
+/// Every `every` hours, from `from` to `to`, without those deep in the night, when the sun adds nothing; one hour alone
+/// when the light is always the same.
+std::vector<double> baked_hours(const LightModel& light, double from, double to, double every);
 
 }  // namespace daylit

@@ -11,9 +11,10 @@ void StageProgress::at(double done_of_stage) const {
     if (report && !report(begin + (end - begin) * done_of_stage)) throw Interrupted{};
 }
 
-void for_each_parallel(std::size_t count, const StageProgress& progress, const std::function<void(std::size_t)>& work) {
+void for_each_parallel(std::size_t count, const StageProgress& progress, const std::function<void(std::size_t)>& work,
+                       std::size_t least_round) {
     // Enough rounds to answer Ctrl-C soon, each long enough to keep all threads busy.
-    const std::size_t round = std::max<std::size_t>(count / 50, 2048);
+    const std::size_t round = std::max(count / 50, least_round);
     for (std::size_t first = 0; first < count; first += round) {
         progress.at(double(first) / double(count));
         const std::size_t last = std::min(first + round, count);

@@ -51,7 +51,7 @@ struct LightSettings {
 struct Lighting {
     std::vector<Sun> suns;  // empty by night; SunSource::Scene may give several
     Environment sky;
-    LightScales scales;  // what the parts of LightModel were multiplied by
+    LightScales scales = {};  // what the parts of LightModel were multiplied by
 };
 
 /// The parts of the day's sky that no hour changes (light_parts.h): O, G and N; empty maps where the sky is fixed.

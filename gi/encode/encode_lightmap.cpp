@@ -14,14 +14,21 @@ namespace {
 // Luminance times pi to which displays adapt at the least (the floor of auto_ev).
 constexpr double kDarkestExposure = 1e-4 * kPi;
 
-DayRows day_rows(const DayIrradiance& day, std::span<const double> hours, const std::vector<std::uint32_t>& rows) {
+DayRows day_rows(const DaySolution& day, std::span<const Keyframe> keyframes, const std::vector<std::uint32_t>& rows) {
     DayRows result;
     result.count = rows.size();
-    result.hours.assign(hours.begin(), hours.end());
-    result.exposure = exposures(day);
-    result.read = [&day, &rows](std::size_t row, Rgb* keyframes) {
-        const Rgb* light = day.row(rows[row]);
-        for (std::size_t k = 0; k + 1 < day.columns; ++k) keyframes[k] = light[k] + light[day.columns - 1];
+    result.exposure = exposures(day, keyframes);
+    std::vector<std::vector<Rgb>> weights;
+    for (const Keyframe& keyframe : keyframes) {
+        result.hours.push_back(day.basis.columns.hours[keyframe.hour]);
+        weights.push_back(day.basis.weights(keyframe.hour, keyframe.scales));
+    }
+    result.read = [&day, &rows, weights = std::move(weights)](std::size_t row, Rgb* light) {
+        const Rgb* components = day.texel(rows[row]);
+        for (std::size_t k = 0; k < weights.size(); ++k) {
+            light[k] = Rgb(0.0f);
+            for (std::size_t r = 0; r < day.basis.components; ++r) light[k] += weights[k][r] * components[r];
+        }
     };
     return result;
 }
@@ -53,8 +60,8 @@ std::vector<std::uint32_t> row_of_atlas_texel(const Atlas& atlas, const Texels& 
         const std::vector<std::uint32_t> nearest = nearest_usable(c.nx, c.ny, lit);
         for (int y = 0; y < c.atlas_height(); ++y)
             for (int x = 0; x < c.atlas_width(); ++x) {
-                const std::uint32_t from =
-                    nearest[std::size_t(std::min(y, c.ny - 1)) * std::size_t(c.nx) + std::size_t(std::min(x, c.nx - 1))];
+                const std::uint32_t from = nearest[std::size_t(std::min(y, c.ny - 1)) * std::size_t(c.nx) +
+                                                   std::size_t(std::min(x, c.nx - 1))];
                 if (from == kNoTexel) continue;  // all of it inside solid geometry: black
                 result[std::size_t(c.y + y) * std::size_t(atlas.width) + std::size_t(c.x + x)] = row_of_cell(from);
             }
@@ -64,20 +71,20 @@ std::vector<std::uint32_t> row_of_atlas_texel(const Atlas& atlas, const Texels& 
 
 }  // namespace
 
-std::vector<double> exposures(const DayIrradiance& day) {
+std::vector<double> exposures(const DaySolution& day, std::span<const Keyframe> keyframes) {
     std::vector<double> result;
-    for (std::size_t k = 0; k + 1 < day.columns; ++k)
-        result.push_back(std::max(day.mean_total[k] + day.mean_total.back(), kDarkestExposure));
+    for (const Keyframe& keyframe : keyframes)
+        result.push_back(std::max(day.mean_luminance(keyframe.hour, keyframe.scales), kDarkestExposure));
     return result;
 }
 
-EncodedLightmap encode_lightmap(const Atlas& atlas, const Texels& texels, const DayIrradiance& day,
-                                std::span<const double> hours, const std::vector<bool>& usable,
+EncodedLightmap encode_lightmap(const Atlas& atlas, const Texels& texels, const DaySolution& day,
+                                std::span<const Keyframe> keyframes, const std::vector<bool>& usable,
                                 const TimeBasisSettings& settings) {
     std::vector<std::uint32_t> rows, row_of_texel(texels.count(), ~0u);
     for (std::uint32_t t = 0; t < texels.count(); ++t)
         if (usable[t]) row_of_texel[t] = std::uint32_t(rows.size()), rows.push_back(t);
-    const DayRows light = day_rows(day, hours, rows);
+    const DayRows light = day_rows(day, keyframes, rows);
     const TimeBasis basis = fit_time_basis(light, settings);
     const std::vector<Rgb> values = project_all(basis, light);
     const std::vector<float> scale = component_scales(values, basis.components);

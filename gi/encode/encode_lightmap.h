@@ -12,13 +12,18 @@ struct EncodedLightmap {
     double error = 0.0;  // of the encoding alone, measured on the halves: worst keyframe, relative
 };
 
-/// What the eye is adapted to at each keyframe, lux: errors are judged against it.
-std::vector<double> exposures(const DayIrradiance& day);
+/// An hour of a solution, and the parts' scales in its weather.
+struct Keyframe {
+    std::size_t hour = 0;  // of DayColumns::hours
+    LightScales scales;
+};
 
-/// hours    of day's columns but the last, which is added to each
+/// What the eye is adapted to at each keyframe, lux: errors are judged against it.
+std::vector<double> exposures(const DaySolution& day, std::span<const Keyframe> keyframes);
+
 /// usable   texels that hold light; the rest of each chart's grid is filled from the nearest of these in the chart
-EncodedLightmap encode_lightmap(const Atlas& atlas, const Texels& texels, const DayIrradiance& day,
-                                std::span<const double> hours, const std::vector<bool>& usable,
+EncodedLightmap encode_lightmap(const Atlas& atlas, const Texels& texels, const DaySolution& day,
+                                std::span<const Keyframe> keyframes, const std::vector<bool>& usable,
                                 const TimeBasisSettings& settings);
 
 }  // namespace daylit

@@ -24,37 +24,51 @@ Rgb irradiance(const Sh& sh, const Vec3& normal) {
     return glm::max(sum, Rgb(0.0f));
 }
 
-/// A probe's radiance at a keyframe, with what does not change.
-Sh at_keyframe(const DayRadiance& day, std::size_t probe, std::size_t k) {
-    Sh sh = day.row(probe)[k];
-    for (std::size_t i = 0; i < kCoefficients; ++i) sh[i] += day.row(probe)[day.columns - 1][i];
-    return sh;
+/// The SH of every free probe at every keyframe.
+struct ProbeDay {
+    std::size_t keyframes = 0;
+    std::vector<Sh> sh;  // [free probe][keyframe]
+    const Sh& at(std::size_t probe, std::size_t k) const { return sh[probe * keyframes + k]; }
+};
+
+ProbeDay probe_day(const DaySolution& day, const ProbeHits& probes, std::span<const Keyframe> keyframes,
+                   const std::vector<std::uint32_t>& free) {
+    std::vector<std::vector<Rgb>> weights;
+    for (const Keyframe& keyframe : keyframes) weights.push_back(day.basis.weights(keyframe.hour, keyframe.scales));
+    ProbeDay result{keyframes.size(), std::vector<Sh>(free.size() * keyframes.size())};
+    tbb::parallel_for(std::size_t(0), free.size(), [&](std::size_t f) {
+        const std::vector<Rgb> sh = gather_probe(day, probes, free[f]);
+        const std::size_t components = day.basis.components;
+        for (std::size_t k = 0; k < keyframes.size(); ++k)
+            for (std::size_t i = 0; i < kCoefficients; ++i) {
+                Rgb& sum = result.sh[f * keyframes.size() + k][i] = Rgb(0.0f);
+                for (std::size_t r = 0; r < components; ++r) sum += weights[k][r] * sh[i * components + r];
+            }
+    });
+    return result;
 }
 
 /// What is judged: irradiance on six sides of every free probe.
-DayRows day_rows(const DayRadiance& day, const std::vector<std::uint32_t>& free, std::span<const double> hours,
-                 std::span<const double> exposure) {
+DayRows day_rows(const ProbeDay& light, std::size_t free, const DaySolution& day, std::span<const Keyframe> keyframes) {
     DayRows rows;
-    rows.count = kSides.size() * free.size();
-    rows.hours.assign(hours.begin(), hours.end());
-    rows.exposure.assign(exposure.begin(), exposure.end());
-    rows.read = [&day, &free](std::size_t row, Rgb* keyframes) {
-        for (std::size_t k = 0; k + 1 < day.columns; ++k)
-            keyframes[k] = irradiance(at_keyframe(day, free[row / kSides.size()], k), kSides[row % kSides.size()]);
+    rows.count = kSides.size() * free;
+    for (const Keyframe& keyframe : keyframes) rows.hours.push_back(day.basis.columns.hours[keyframe.hour]);
+    rows.exposure = exposures(day, keyframes);
+    rows.read = [&light](std::size_t row, Rgb* values) {
+        for (std::size_t k = 0; k < light.keyframes; ++k)
+            values[k] = irradiance(light.at(row / kSides.size(), k), kSides[row % kSides.size()]);
     };
     return rows;
 }
 
 /// Component coefficients of every free probe: [probe][coefficient][component].
-std::vector<Rgb> project_all(const TimeBasis& basis, const DayRadiance& day, const std::vector<std::uint32_t>& free) {
+std::vector<Rgb> project_all(const TimeBasis& basis, const ProbeDay& light, std::size_t free) {
     const std::size_t components = std::size_t(basis.components), keyframes = basis.hours.size();
-    std::vector<Rgb> result(free.size() * kCoefficients * components);
-    tbb::parallel_for(std::size_t(0), free.size(), [&](std::size_t f) {
-        std::vector<Sh> sh;
-        for (std::size_t k = 0; k < keyframes; ++k) sh.push_back(at_keyframe(day, free[f], k));
+    std::vector<Rgb> result(free * kCoefficients * components);
+    tbb::parallel_for(std::size_t(0), free, [&](std::size_t f) {
         std::vector<Rgb> series(keyframes);
         for (std::size_t i = 0; i < kCoefficients; ++i) {
-            for (std::size_t k = 0; k < keyframes; ++k) series[k] = sh[k][i];
+            for (std::size_t k = 0; k < keyframes; ++k) series[k] = light.at(f, k)[i];
             project(basis, series.data(), result.data() + (f * kCoefficients + i) * components);
         }
     });
@@ -105,17 +119,17 @@ std::vector<double> brightness_of(const DayRows& rows) {
 
 }  // namespace
 
-EncodedVolume encode_volume(const ProbeGrid& grid, const ProbeHits& probes, const DayRadiance& day,
-                            std::span<const double> hours, std::span<const double> exposure,
-                            const TimeBasisSettings& settings) {
+EncodedVolume encode_volume(const ProbeGrid& grid, const ProbeHits& probes, const DaySolution& day,
+                            std::span<const Keyframe> keyframes, const TimeBasisSettings& settings) {
     std::vector<std::uint32_t> free, free_of_probe(grid.count(), ~0u);
     for (std::uint32_t p = 0; p < probes.count(); ++p)
         if (!probes.buried[p]) free_of_probe[grid.wanted[p]] = std::uint32_t(free.size()), free.push_back(p);
 
-    const DayRows rows = day_rows(day, free, hours, exposure);
+    const ProbeDay light = probe_day(day, probes, keyframes, free);
+    const DayRows rows = day_rows(light, free.size(), day, keyframes);
     const TimeBasis basis = fit_time_basis(rows, settings);
     const std::size_t components = std::size_t(basis.components);
-    const std::vector<Rgb> values = project_all(basis, day, free);
+    const std::vector<Rgb> values = project_all(basis, light, free.size());
     const std::vector<float> scale = component_scales(values, basis.components);
     const std::vector<std::uint16_t> halves = to_halves(values, scale);
 

@@ -1,7 +1,7 @@
 #pragma once
 // The day's radiance at probes as the volume that the runtime reads.
 #include "engine/baked/irradiance_volume.h"
-#include "gi/encode/time_basis.h"
+#include "gi/encode/encode_lightmap.h"
 #include "gi/surface/probe_grid.h"
 #include "gi/transport/day_gather/day_gather.h"
 
@@ -14,10 +14,7 @@ struct EncodedVolume {
 };
 
 /// probes     the grid's wanted ones, in their order
-/// hours      of the columns but the last, which is added to each
-/// exposure   per hour, lux: what the eye is adapted to
-EncodedVolume encode_volume(const ProbeGrid& grid, const ProbeHits& probes, const DayRadiance& day,
-                            std::span<const double> hours, std::span<const double> exposure,
-                            const TimeBasisSettings& settings);
+EncodedVolume encode_volume(const ProbeGrid& grid, const ProbeHits& probes, const DaySolution& day,
+                            std::span<const Keyframe> keyframes, const TimeBasisSettings& settings);
 
 }  // namespace daylit

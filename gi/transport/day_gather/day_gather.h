@@ -1,17 +1,18 @@
 #pragma once
 // Light at texels over the day. A ray's hit does not depend on the hour: each receiver's rays are traced once, and the
 // hits, which make one big sparse matrix, are applied to all hours as columns; bounces are repeated application.
+// day_columns.h says what the columns are, day_solution.h how the result is kept.
 //
-// In this first form gloss reflects like Lambert with its whole albedo, and a texel reflects with its mean albedo.
+// In this form gloss reflects like Lambert with its whole albedo, and a texel reflects with its mean albedo.
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "engine/scene/sky.h"
 #include "gi/parallel.h"
 #include "gi/surface/texels.h"
 #include "gi/trace/ray_scene.h"
+#include "gi/transport/day_gather/day_solution.h"
 
 namespace daylit {
 
@@ -74,37 +75,16 @@ ProbeHits trace_probes(const GatherScene& scene, const GatherHits& hits, std::sp
 std::vector<Rgb> lamp_irradiance(const GatherScene& scene, const GatherHits& hits, const GatherSettings& settings,
                                  const StageProgress& progress);
 
-/// Straight light of the suns on one receiver at each hour: added to out[hour], lux.
-void add_sun_irradiance(const GatherScene& scene, const GatherHits& hits, std::span<const Lighting> hours,
-                        const GatherSettings& settings, std::size_t receiver, Rgb* out);
+/// Straight light of suns that stand still on every receiver, lux.
+std::vector<Rgb> sun_irradiance(const GatherScene& scene, const GatherHits& hits, std::span<const Sun> suns,
+                                const GatherSettings& settings, const StageProgress& progress);
 
-/// Mean radiance of the sky's bins, cd/m^2.
-std::vector<Rgb> sky_bins(const Environment& sky);
-std::uint32_t sky_bin(const Vec3& direction);
+/// The whole day's light at receivers.
+/// lamp_irradiance   straight light of punctual lamps on every receiver, lux
+DaySolution solve_day(const GatherScene& scene, const GatherHits& hits, std::span<const Rgb> lamp_irradiance,
+                      const DayLight& light, const GatherSettings& settings, const StageProgress& progress);
 
-/// *Indirect* irradiance, lux: rows are texels, columns the hours and, last, what does not change (lamps, emission).
-struct DayIrradiance {
-    std::size_t columns = 0;
-    std::vector<Rgb> rows;          // texels * columns
-    std::vector<double> mean_total;  // per column: mean luminance of all reflected light, albedo * E (direct included)
-    int bounces = 0;                // that it took
-    Rgb* row(std::size_t texel) { return rows.data() + texel * columns; }
-    const Rgb* row(std::size_t texel) const { return rows.data() + texel * columns; }
-};
-/// SH of *indirect* radiance, cd/m^2: [probe][column][coefficient], columns as in DayIrradiance.
-struct DayRadiance {
-    std::size_t columns = 0;
-    std::vector<std::array<Rgb, 9>> sh;  // probes * columns
-    std::array<Rgb, 9>* row(std::size_t probe) { return sh.data() + probe * columns; }
-    const std::array<Rgb, 9>* row(std::size_t probe) const { return sh.data() + probe * columns; }
-};
-
-struct DaySolution {
-    DayIrradiance texels;
-    DayRadiance probes;
-};
-DaySolution solve_day(const GatherScene& scene, const GatherHits& hits, const ProbeHits& probes,
-                      std::span<const Rgb> lamp_irradiance, std::span<const Lighting> hours,
-                      const GatherSettings& settings, const StageProgress& progress);
+/// SH of *indirect* radiance at a probe, cd/m^2, by what its rays met: [coefficient][component] of day.basis.
+std::vector<Rgb> gather_probe(const DaySolution& day, const ProbeHits& probes, std::size_t probe);
 
 }  // namespace daylit

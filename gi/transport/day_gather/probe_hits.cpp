@@ -99,4 +99,23 @@ ProbeHits trace_probes(const GatherScene& scene, const GatherHits& hits, std::sp
     return out;
 }
 
+std::vector<Rgb> gather_probe(const DaySolution& day, const ProbeHits& probes, std::size_t probe) {
+    constexpr std::size_t kCoefficients = glsl::kShCoefficients;
+    const std::size_t components = day.basis.components, sky = day.leaving.size() / components - kSkyBins;
+    std::vector<Rgb> sh(kCoefficients * components, Rgb(0.0f));
+    // Each ray stands for 4 pi / rays of solid angle; what leaves is kept as lux, pi L.
+    const float scale = 4.0f / float(probes.rays);
+    for (std::size_t j = probe * std::size_t(probes.rays); j < (probe + 1) * std::size_t(probes.rays); ++j) {
+        const std::uint32_t hit = probes.hit[j];
+        if (hit == kNoLight) continue;
+        const Rgb* row = day.leaves(hit & kSkyBit ? sky + (hit & ~kSkyBit) : hit);
+        const glsl::Sh9 basis = glsl::sh_basis(probes.direction[j]);
+        for (std::size_t i = 0; i < kCoefficients; ++i)
+            for (std::size_t r = 0; r < components; ++r) sh[i * components + r] += scale * basis.c[i] * row[r];
+    }
+    for (std::size_t i = 0; i < kCoefficients; ++i)
+        sh[i * components + day.basis.component_of(StillPart::Lamps)] += probes.emission[probe][i];
+    return sh;
+}
+
 }  // namespace daylit

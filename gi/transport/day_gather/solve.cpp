@@ -1,186 +1,324 @@
-// All hours as columns of one matrix: each bounce is one application of the kept hits.
+// All hours at once. Sun and sky of the whole day are reduced to few components, by principal components of the light
+// that a sample of receivers gathers; since gathering mixes rows and reducing mixes columns, the one may come before
+// the other, and every bounce of every hour takes the work of these few.
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "gi/transport/day_gather/day_gather.h"
-#include "shaders/shared/sh.h"
+#include "gi/transport/day_gather/reduce.h"
+#include "gi/transport/day_gather/sun_rows.h"
+#include "gi/transport/path_trace/sampling.h"
 
 namespace daylit {
 namespace {
 
-// Columns that are bounced together: a row of 16 RGB floats is three cache lines, enough to pay for fetching it.
-constexpr std::size_t kBlock = 16;
-using Row = std::array<Rgb, kBlock>;
+constexpr std::size_t kSampleRows = 3072, kCheckRows = 1024;
+constexpr std::size_t kChunk = 512;  // receivers whose sums belong together, whatever the threads
+constexpr std::size_t kAhead = 6;    // rows fetched ahead of their use
 
-Row black() {
-    Row row;
-    row.fill(Rgb(0.0f));
-    return row;
+/// The upper half of a float, rounded: rows at half the bytes, with a float's range. Rounding, 0.2 % at most, averages
+/// out over a receiver's rays.
+std::uint16_t to_bfloat(float value) {
+    const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
+    return std::uint16_t((bits + 0x7FFFu + (bits >> 16 & 1u)) >> 16);
+}
+float from_bfloat(std::uint16_t value) {
+    return std::bit_cast<float>(std::uint32_t(value) << 16);
 }
 
-/// sum += factor * row, as one stretch of floats, which compilers vectorise.
-void add_scaled(float factor, const Row& row, Row& sum) {
-    const float* from = &row[0].x;
-    float* to = &sum[0].x;
-    for (std::size_t i = 0; i < 3 * kBlock; ++i) to[i] += factor * from[i];
-}
+/// What shines straight on receivers, before it is known which components are worth keeping.
+struct Direct {
+    SunRows arcs;           // of the moving sun
+    std::vector<Rgb> suns;  // of suns that stand still, lux per receiver
+};
 
-/// Up to kBlock columns on their way through the bounces.
-class Block {
+class Solver {
   public:
-    Block(const GatherScene& scene, const GatherHits& hits, const GatherSettings& settings)
-        : scene_(scene), hits_(hits), settings_(settings), receivers_(hits.receivers.size()),
-          gathered_(receivers_, black()), indirect_(receivers_, black()) {}
+    Solver(const GatherScene& scene, const GatherHits& hits, std::span<const Rgb> lamps, const DayLight& light,
+           const GatherSettings& settings)
+        : scene_(scene),
+          hits_(hits),
+          lamps_(lamps),
+          light_(light),
+          settings_(settings),
+          receivers_(hits.receivers.size()) {}
 
-    /// Fills the light that leaves receivers and sky before any bounce, as lux (pi L).
-    void start(std::span<const Lighting> hours, bool constant_last, std::span<const Rgb> lamps,
-               const StageProgress& progress) {
-        const std::vector<Rgb> any_bins = sky_bins(Environment{});
-        leaving_.assign(receivers_ + any_bins.size(), black());
-        for (std::size_t c = 0; c < hours.size(); ++c) {
-            const std::vector<Rgb> bins = sky_bins(hours[c].sky);
-            for (std::size_t b = 0; b < bins.size(); ++b) leaving_[receivers_ + b][c] = float(kPi) * bins[b];
-        }
-        for_each_parallel(receivers_, progress, [&](std::size_t r) {
-            Row direct = black();
-            add_sun_irradiance(scene_, hits_, hours, settings_, r, direct.data());
-            if (constant_last) {
-                direct[hours.size()] = lamps[r] + hits_.emission[r];
-                indirect_[r][hours.size()] = hits_.emission[r];
-            }
-            const Rgb albedo = scene_.albedo[hits_.receivers[r].texel];
-            for (std::size_t c = 0; c < kBlock; ++c) leaving_[r][c] = albedo * direct[c];
-        });
-        count_leaving();
+    DaySolution solve(const StageProgress& progress) {
+        find_sun(progress.part(0.0, 0.3));
+        choose_components();
+        start(progress.part(0.3, 0.4));
+        bounce_all(progress.part(0.4, 1.0));
+        finish();
+        return std::move(solution_);
     }
-
-    /// Sums from now on all that leaves receivers and sky, for probes to gather at the end.
-    void keep_all() { all_leaving_ = leaving_; }
-
-    /// SH of radiance at a probe, by what its rays met; sh holds kBlock rows.
-    void gather(const ProbeHits& probes, std::size_t p, std::array<std::array<Rgb, 9>, kBlock>& sh) const {
-        std::array<Row, 9> sum;
-        sum.fill(black());
-        const std::size_t first = p * std::size_t(probes.rays);
-        for (std::size_t j = first; j < first + std::size_t(probes.rays); ++j) {
-            const std::uint32_t hit = probes.hit[j];
-            if (hit == kNoLight) continue;
-            const Row& row = all_leaving_[hit & kSkyBit ? receivers_ + (hit & ~kSkyBit) : hit];
-            const glsl::Sh9 basis = glsl::sh_basis(probes.direction[j]);
-            for (std::size_t i = 0; i < 9; ++i)
-                add_scaled(basis.c[i], row, sum[i]);
-        }
-        // Each ray stands for 4 pi / rays of solid angle; what leaves is stored as lux, pi L.
-        const float scale = 4.0f / float(probes.rays);
-        for (std::size_t i = 0; i < 9; ++i)
-            for (std::size_t c = 0; c < kBlock; ++c) sh[c][i] = scale * sum[i][c];
-    }
-
-    /// One bounce; returns the share of all indirect light that it brought, the worst column's.
-    double bounce(const StageProgress& progress) {
-        for_each_parallel(receivers_, progress, [&](std::size_t r) {
-            Row sum = black();
-            const std::uint32_t* hit = hits_.hit.data() + r * std::size_t(hits_.rays);
-            for (int j = 0; j < hits_.rays; ++j) {
-                if (hit[j] == kNoLight) continue;
-                const std::size_t from = hit[j] & kSkyBit ? receivers_ + (hit[j] & ~kSkyBit) : hit[j];
-                const Row& row = leaving_[from];
-                for (std::size_t c = 0; c < kBlock; ++c) sum[c] += row[c];
-            }
-            for (std::size_t c = 0; c < kBlock; ++c) gathered_[r][c] = hits_.scale[r] * sum[c];
-        });
-        return turn_round();
-    }
-
-    const Row& indirect(std::size_t receiver) const { return indirect_[receiver]; }
-    /// Mean luminance of what leaves the fronts, so far, per column.
-    const std::array<double, kBlock>& mean_leaving() const { return mean_leaving_; }
 
   private:
-    /// What was gathered is reflected next; the sky shines only once.
-    double turn_round() {
-        std::array<double, kBlock> brought{}, all{};
-        for (std::size_t r = 0; r < receivers_; ++r) {
-            const Rgb albedo = scene_.albedo[hits_.receivers[r].texel];
-            for (std::size_t c = 0; c < kBlock; ++c) {
-                indirect_[r][c] += gathered_[r][c];
-                leaving_[r][c] = albedo * gathered_[r][c];
-                brought[c] += luminance(gathered_[r][c]);
-                all[c] += luminance(indirect_[r][c]);
+    std::size_t width() const { return 3 * solution_.basis.components; }
+    const Rgb& albedo(std::size_t receiver) const { return scene_.albedo[hits_.receivers[receiver].texel]; }
+    std::size_t source(std::uint32_t hit) const { return hit & kSkyBit ? receivers_ + (hit & ~kSkyBit) : hit; }
+    std::span<const std::uint32_t> hits_of(std::size_t receiver) const {
+        return {hits_.hit.data() + receiver * std::size_t(hits_.rays), std::size_t(hits_.rays)};
+    }
+
+    void find_sun(const StageProgress& progress) {
+        if (light_.columns.suns == 1) direct_.suns = sun_irradiance(scene_, hits_, light_.suns[0], settings_, progress);
+        if (light_.columns.suns > 1)
+            direct_.arcs = SunRows(scene_, hits_, light_.columns.hours, light_.suns, settings_, progress);
+    }
+
+    // ---- components ----
+
+    /// Receivers spread over all fronts, every other one for checking.
+    SampleRows sample(std::size_t wanted, std::size_t offset) const {
+        const std::size_t fronts = scene_.texels.count(), count = std::min(wanted, fronts);
+        SampleRows rows{light_.columns.suns + light_.columns.skies, {}};
+        rows.values.assign(count * 3 * rows.columns, 0.0f);
+        const std::vector<float> sky = sky_by_bins();
+        const StageProgress silent{Progress{}};
+        for_each_parallel(count, silent, [&](std::size_t i) {
+            const std::size_t receiver = ((2 * i + offset) * fronts / (2 * count)) % fronts;
+            float* row = rows.row(i);
+            for (std::uint32_t hit : hits_of(receiver)) {
+                if (hit == kNoLight) continue;
+                if (hit & kSkyBit) {
+                    const float* bin = sky.data() + (hit & ~kSkyBit) * 3 * light_.columns.skies;
+                    for (std::size_t channel = 0; channel < 3; ++channel)
+                        for (std::size_t k = 0; k < light_.columns.skies; ++k)
+                            row[channel * rows.columns + light_.columns.suns + k] +=
+                                bin[channel * light_.columns.skies + k];
+                } else {
+                    add_sun(hit, rows.columns, row);
+                }
+            }
+            for (std::size_t k = 0; k < 3 * rows.columns; ++k) row[k] *= hits_.scale[receiver];
+        });
+        return rows;
+    }
+
+    /// Reflected sunlight of a receiver, in full.
+    void add_sun(std::size_t receiver, std::size_t columns, float* row) const {
+        const Rgb reflected = albedo(receiver);
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            if (!direct_.suns.empty())
+                row[channel * columns] += reflected[int(channel)] * direct_.suns[receiver][int(channel)];
+            const SunRows::Row arc = direct_.arcs.row(receiver);
+            float* to = row + channel * columns + arc.first;
+            for (std::size_t k = 0; k < arc.values.size(); ++k) to[k] += reflected[int(channel)] * arc.values[k];
+        }
+    }
+
+    /// K as pi L: [bin][channel][hour].
+    std::vector<float> sky_by_bins() const {
+        const std::size_t skies = light_.columns.skies;
+        std::vector<float> result(kSkyBins * 3 * skies);
+        for (std::size_t bin = 0; bin < kSkyBins; ++bin)
+            for (int channel = 0; channel < 3; ++channel)
+                for (std::size_t k = 0; k < skies; ++k)
+                    result[(bin * 3 + std::size_t(channel)) * skies + k] = kPiF * light_.sky[k][bin][channel];
+        return result;
+    }
+
+    void choose_components() {
+        const SampleRows chosen = sample(kSampleRows, 0);
+        const Reduction reduction = reduce(light_, chosen, sample(kCheckRows, 1), exposures(chosen));
+        DayBasisCurves& basis = solution_.basis;
+        basis.columns = light_.columns;
+        basis.components = reduction.components + kStillParts;
+        basis.error = reduction.error;
+        basis.curves.assign(basis.components * basis.columns.count(), 0.0f);
+        const std::size_t columns = basis.columns.suns + basis.columns.skies;
+        for (std::size_t r = 0; r < reduction.components; ++r)
+            std::copy_n(reduction.curves.begin() + std::ptrdiff_t(r * columns), columns,
+                        basis.curves.begin() + std::ptrdiff_t(r * basis.columns.count()));
+        for (std::size_t part = 0; part < kStillParts; ++part)
+            basis.curves[(reduction.components + part) * basis.columns.count() + columns + part] = 1.0f;
+        project_ = reduction.project;
+    }
+
+    /// What the eye is adapted to, lux, roughly: light that a sample gathers, and lamps.
+    std::vector<double> exposures(const SampleRows& rows) const {
+        std::vector<double> result(light_.columns.hours.size(), 0.0);
+        for (std::size_t i = 0; i < rows.count(); ++i) {
+            const std::vector<double> hours = clear_day(light_, rows.row(i));
+            for (std::size_t k = 0; k < hours.size(); ++k) result[k] += hours[k] / double(rows.count());
+        }
+        double lamps = 0.0;
+        for (std::size_t t = 0; t < scene_.texels.count(); ++t)
+            lamps += double(luminance(albedo(t) * (lamps_[t] + hits_.emission[t])));
+        for (double& lux : result)
+            lux = std::max(lux + lamps / double(std::max<std::size_t>(scene_.texels.count(), 1)), 1e-4);
+        return result;
+    }
+
+    // ---- bounces ----
+
+    void start(const StageProgress& progress) {
+        solution_.leaving.assign((receivers_ + kSkyBins) * solution_.basis.components, Rgb(0.0f));
+        solution_.texels.assign(scene_.texels.count() * solution_.basis.components, Rgb(0.0f));
+        current_.assign(solution_.leaving.size() * 3, 0);
+        next_.assign(receivers_ * width(), 0);
+        for_each_parallel(receivers_, progress, [&](std::size_t r) { start_receiver(r); });
+        tbb::parallel_for(std::size_t(0), kSkyBins, [&](std::size_t bin) { start_sky(bin); });
+    }
+
+    void start_receiver(std::size_t r) {
+        const DayBasisCurves& basis = solution_.basis;
+        Rgb* row = solution_.leaving.data() + r * basis.components;
+        const std::size_t changing = basis.components - kStillParts;
+        std::array<float, 64> sun{};
+        const SunRows::Row arc = direct_.arcs.row(r);
+        for (std::size_t k = 0; k < arc.values.size(); ++k) {
+            const float* project = project_.data() + (arc.first + k) * changing;
+            for (std::size_t i = 0; i < changing; ++i) sun[i] += arc.values[k] * project[i];
+        }
+        for (std::size_t i = 0; i < changing; ++i) {
+            row[i] = albedo(r) * sun[i];
+            if (!direct_.suns.empty()) row[i] += albedo(r) * project_[i] * direct_.suns[r];
+        }
+        row[basis.component_of(StillPart::Lamps)] = albedo(r) * (lamps_[r] + hits_.emission[r]);
+        if (r < scene_.texels.count())
+            solution_.texels[r * basis.components + basis.component_of(StillPart::Lamps)] = hits_.emission[r];
+        send(row, current_.data() + r * width());
+    }
+
+    void start_sky(std::size_t bin) {
+        const DayBasisCurves& basis = solution_.basis;
+        Rgb* row = solution_.leaving.data() + (receivers_ + bin) * basis.components;
+        const std::size_t changing = basis.components - kStillParts;
+        for (std::size_t k = 0; k < light_.columns.skies; ++k) {
+            const float* project = project_.data() + (light_.columns.suns + k) * changing;
+            for (std::size_t i = 0; i < changing; ++i) row[i] += project[i] * kPiF * light_.sky[k][bin];
+        }
+        for (std::size_t part = 0; part < 3; ++part)
+            row[changing + part] = kPiF * light_.sky[light_.columns.skies + part][bin];
+        send(row, current_.data() + (receivers_ + bin) * width());
+    }
+
+    void send(const Rgb* row, std::uint16_t* to) const {
+        for (std::size_t i = 0; i < solution_.basis.components; ++i)
+            for (int c = 0; c < 3; ++c) to[3 * i + std::size_t(c)] = to_bfloat(row[i][c]);
+    }
+
+    void bounce_all(const StageProgress& progress) {
+        double at = 0.0;
+        for (bool sky = true; solution_.bounces < settings_.bounces; sky = false) {
+            const double next = at + 0.3 * (1.0 - at);  // nobody knows how many there will be
+            ++solution_.bounces;
+            if (bounce(sky, progress.part(at, next)) < settings_.rest) break;
+            at = next;
+        }
+    }
+
+    /// One bounce; returns the share of all indirect light that it brought, the worst hour's.
+    double bounce(bool sky, const StageProgress& progress) {
+        struct Sums {
+            std::vector<double> brought, all;
+        };
+        std::vector<Sums> sums((receivers_ + kChunk - 1) / kChunk);
+        for_each_parallel(
+            sums.size(), progress,
+            [&](std::size_t chunk) {
+                Sums& sum = sums[chunk];
+                sum.brought.assign(width(), 0.0), sum.all.assign(width(), 0.0);
+                std::array<float, 3 * 64> row;
+                for (std::size_t r = chunk * kChunk; r < std::min((chunk + 1) * kChunk, receivers_); ++r) {
+                    gather(r, sky, row.data());
+                    reflect(r, row.data(), sum.brought, sum.all);
+                }
+            },
+            16);
+        current_.swap(next_);
+        std::vector<double> brought(width(), 0.0), all(width(), 0.0);
+        for (const Sums& sum : sums)
+            for (std::size_t i = 0; i < width(); ++i) brought[i] += sum.brought[i], all[i] += sum.all[i];
+        return worst_hour(brought, all);
+    }
+
+    void gather(std::size_t r, bool sky, float* sum) const {
+        const std::size_t w = width();
+        std::fill_n(sum, w, 0.0f);
+        const std::span<const std::uint32_t> hits = hits_of(r);
+        for (std::size_t j = 0; j < hits.size(); ++j) {
+            if (j + kAhead < hits.size() && !(hits[j + kAhead] & kSkyBit)) {
+                const std::uint16_t* ahead = current_.data() + hits[j + kAhead] * w;
+                for (std::size_t line = 0; line < w; line += 32) __builtin_prefetch(ahead + line);
+            }
+            if (hits[j] == kNoLight || (!sky && hits[j] & kSkyBit)) continue;
+            const std::uint16_t* row = current_.data() + source(hits[j]) * w;
+            for (std::size_t i = 0; i < w; ++i) sum[i] += from_bfloat(row[i]);
+        }
+        for (std::size_t i = 0; i < w; ++i) sum[i] *= hits_.scale[r];
+    }
+
+    /// What was gathered is reflected next.
+    void reflect(std::size_t r, const float* gathered, std::vector<double>& brought, std::vector<double>& all) {
+        const std::size_t components = solution_.basis.components;
+        const bool front = r < scene_.texels.count();
+        Rgb* leaving = solution_.leaving.data() + r * components;
+        Rgb* texel = front ? solution_.texels.data() + r * components : nullptr;
+        std::array<Rgb, 64> reflected;
+        for (std::size_t i = 0; i < components; ++i) {
+            const Rgb light(gathered[3 * i], gathered[3 * i + 1], gathered[3 * i + 2]);
+            reflected[i] = albedo(r) * light;
+            leaving[i] += reflected[i];
+            if (!front) continue;
+            texel[i] += light;
+            for (int c = 0; c < 3; ++c) {
+                brought[3 * i + std::size_t(c)] += double(light[c]);
+                all[3 * i + std::size_t(c)] += double(texel[i][c]);
             }
         }
-        for (std::size_t r = 0; r < std::min(receivers_, all_leaving_.size()); ++r)
-            for (std::size_t c = 0; c < kBlock; ++c) all_leaving_[r][c] += leaving_[r][c];
-        std::fill(leaving_.begin() + std::ptrdiff_t(receivers_), leaving_.end(), black());
-        count_leaving();
+        send(reflected.data(), next_.data() + r * width());
+    }
+
+    double worst_hour(const std::vector<double>& brought, const std::vector<double>& all) const {
         double worst = 0.0;
-        for (std::size_t c = 0; c < kBlock; ++c)
-            if (all[c] > 0.0) worst = std::max(worst, brought[c] / all[c]);
+        for (std::size_t k = 0; k < light_.columns.hours.size(); ++k) {
+            const std::vector<Rgb> weights = solution_.basis.weights(k, light_.scales[k]);
+            double of_this = 0.0, of_all = 0.0;
+            for (std::size_t i = 0; i < weights.size(); ++i)
+                for (std::size_t c = 0; c < 3; ++c) {
+                    of_this += double(weights[i][int(c)]) * brought[3 * i + c];
+                    of_all += double(weights[i][int(c)]) * all[3 * i + c];
+                }
+            if (of_all > 0.0) worst = std::max(worst, of_this / of_all);
+        }
         return worst;
     }
 
-    void count_leaving() {
+    void finish() {
+        const DayBasisCurves& basis = solution_.basis;
+        std::vector<glm::dvec3> mean(basis.components, glm::dvec3(0.0));
         for (std::size_t t = 0; t < scene_.texels.count(); ++t)
-            for (std::size_t c = 0; c < kBlock; ++c)
-                mean_leaving_[c] += luminance(leaving_[t][c]) / double(scene_.texels.count());
+            for (std::size_t i = 0; i < basis.components; ++i)
+                mean[i] += glm::dvec3(solution_.leaves(t)[i]) / double(scene_.texels.count());
+        solution_.mean_leaving.assign(basis.columns.count(), glm::dvec3(0.0));
+        for (std::size_t i = 0; i < basis.components; ++i)
+            for (std::size_t c = 0; c < basis.columns.count(); ++c)
+                solution_.mean_leaving[c] += double(basis.curve(i, c)) * mean[i];
     }
 
     const GatherScene& scene_;
     const GatherHits& hits_;
+    std::span<const Rgb> lamps_;
+    const DayLight& light_;
     const GatherSettings& settings_;
     std::size_t receivers_;
-    std::vector<Row> leaving_, all_leaving_;  // receivers, then sky bins
-    std::vector<Row> gathered_, indirect_;
-    std::array<double, kBlock> mean_leaving_{};
+    Direct direct_;
+    std::vector<float> project_;  // [column][component]
+    DaySolution solution_;
+    std::vector<std::uint16_t> current_, next_;  // leaving at this bounce and the next: receivers, then sky bins
 };
-
-void gather_probes(const Block& block, const ProbeHits& probes, std::size_t first, std::size_t last, DayRadiance& day) {
-    const StageProgress silent{Progress{}};
-    for_each_parallel(probes.count(), silent, [&](std::size_t p) {
-        std::array<std::array<Rgb, 9>, kBlock> sh;
-        block.gather(probes, p, sh);
-        std::copy_n(sh.begin(), last - first, day.row(p) + first);
-        if (last == day.columns)
-            for (std::size_t i = 0; i < 9; ++i) day.row(p)[last - 1][i] += probes.emission[p][i];
-    });
-}
 
 }  // namespace
 
-DaySolution solve_day(const GatherScene& scene, const GatherHits& hits, const ProbeHits& probes,
-                      std::span<const Rgb> lamps, std::span<const Lighting> hours, const GatherSettings& settings,
-                      const StageProgress& progress) {
-    DaySolution solution;
-    DayIrradiance& day = solution.texels;
-    day.columns = hours.size() + 1;
-    day.rows.assign(scene.texels.count() * day.columns, Rgb(0.0f));
-    day.mean_total.assign(day.columns, 0.0);
-    solution.probes.columns = day.columns;
-    solution.probes.sh.resize(probes.count() * day.columns);
-    for (std::size_t first = 0; first < day.columns; first += kBlock) {
-        const std::size_t last = std::min(first + kBlock, day.columns);
-        const bool constant_last = last == day.columns;
-        const double width = progress.end - progress.begin, share = 1.0 / double(day.columns);
-        const double begin = progress.begin + width * share * double(first), end = progress.begin + width * share * double(last);
-        const double middle = 0.4 * begin + 0.6 * end;
-        Block block(scene, hits, settings);
-        block.start(hours.subspan(first, last - first - constant_last), constant_last, lamps,
-                    {progress.report, begin, middle});
-        if (probes.count() > 0) block.keep_all();
-        int bounces = 0;
-        while (bounces < settings.bounces) {
-            const double at = end - (end - middle) * std::pow(0.7, bounces), next = end - (end - middle) * std::pow(0.7, bounces + 1);
-            ++bounces;
-            if (block.bounce({progress.report, at, next}) < settings.rest) break;
-        }
-        day.bounces = std::max(day.bounces, bounces);
-        for (std::size_t t = 0; t < scene.texels.count(); ++t)
-            std::copy_n(block.indirect(t).begin(), last - first, day.row(t) + first);
-        gather_probes(block, probes, first, last, solution.probes);
-        for (std::size_t c = first; c < last; ++c) day.mean_total[c] = block.mean_leaving()[c - first];
-    }
-    return solution;
+DaySolution solve_day(const GatherScene& scene, const GatherHits& hits, std::span<const Rgb> lamps,
+                      const DayLight& light, const GatherSettings& settings, const StageProgress& progress) {
+    return Solver(scene, hits, lamps, light, settings).solve(progress);
 }
 
 }  // namespace daylit
