@@ -11,6 +11,7 @@ void add_compare(CLI::App& app);
 void add_bake(CLI::App& app);
 void add_reference(CLI::App& app);
 void add_points(CLI::App& app);
+void add_report(CLI::App& app);
 #endif
 void add_info(CLI::App& app);
 #ifdef DAYLIT_WITH_GL

@@ -29,6 +29,7 @@ void add_commands(CLI::App& app) {
 #ifdef DAYLIT_WITH_BAKER
     daylit::add_reference(app);
     daylit::add_points(app);
+    daylit::add_report(app);
 #endif
     daylit::add_compare(app);
 }

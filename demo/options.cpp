@@ -171,15 +171,20 @@ LoadedScene load(const SceneOptions& options, const std::string& light_file) {
     return loaded;
 }
 
-void add_view_options(CLI::App& app, ViewOptions& options, bool with_hour) {
+void add_camera_options(CLI::App& app, ViewOptions& options) {
     const std::string group = "View";
     app.add_option("--camera", options.camera, "camera of the scene, by node name")->group(group);
     app.add_option("--eye", options.eye, "x,y,z of a free camera")->group(group);
     app.add_option("--at", options.at, "x,y,z it looks at")->group(group);
     app.add_option("--fov", options.fov, "its vertical field of view in degrees")->group(group)->capture_default_str();
+    app.add_option("--size", options.size, "WxH in pixels")->group(group)->capture_default_str();
+}
+
+void add_view_options(CLI::App& app, ViewOptions& options, bool with_hour) {
+    add_camera_options(app, options);
+    const std::string group = "View";
     if (with_hour)
         app.add_option("--hour", options.hour, "H or HH:MM, local clock")->group(group)->capture_default_str();
-    app.add_option("--size", options.size, "WxH in pixels")->group(group)->capture_default_str();
     app.add_option("--show", options.show, "final, direct, indirect, irradiance, albedo, normal, depth, lightmap, ...")
         ->group(group)
         ->capture_default_str();

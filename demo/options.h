@@ -44,6 +44,9 @@ struct ViewOptions {
     std::vector<std::string> moves;
     double time = 0.0;  // seconds on the animations' clocks
 };
+/// Camera and size.
+void add_camera_options(CLI::App& app, ViewOptions& options);
+/// All of it.
 void add_view_options(CLI::App& app, ViewOptions& options, bool with_hour = true);
 
 /// EV100, or none for "auto".

@@ -11,18 +11,6 @@
 namespace daylit {
 namespace {
 
-std::vector<std::string> split(const std::string& text, char separator) {
-    std::vector<std::string> parts(1);
-    for (const char c : text) {
-        if (c == separator) {
-            parts.emplace_back();
-        } else {
-            parts.back() += c;
-        }
-    }
-    return parts;
-}
-
 std::string plain(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%g", value);
@@ -45,6 +33,26 @@ int days_in_month(int year, int month) {
 }
 
 }  // namespace
+
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts(1);
+    for (const char c : text) {
+        if (c == separator) {
+            parts.emplace_back();
+        } else {
+            parts.back() += c;
+        }
+    }
+    return parts;
+}
+
+std::string clock_text(double hour) {
+    constexpr long kMinutes = 24 * 60;
+    const long minutes = (std::lround(hour * 60.0) % kMinutes + kMinutes) % kMinutes;
+    char text[16];
+    std::snprintf(text, sizeof text, "%02ld:%02ld", minutes / 60, minutes % 60);
+    return text;
+}
 
 double parse_number(const std::string& option, const std::string& text) {
     double value = 0;

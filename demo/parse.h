@@ -2,6 +2,7 @@
 // The small grammars of option values. Bad syntax throws UsageError (exit 2), a value out of range Error (exit 1);
 // both name the option.
 #include <string>
+#include <vector>
 
 #include "engine/scene/day.h"
 
@@ -10,8 +11,10 @@ namespace daylit {
 double parse_number(const std::string& option, const std::string& text);
 double parse_number(const std::string& option, const std::string& text, double min, double max);
 double parse_hour(const std::string& option, const std::string& text);  // "7.5" or "07:30", in [0,24)
+std::string clock_text(double hour);                                 // "07:30", wrapped to a day
 double parse_duration_hours(const std::string& option, const std::string& text);  // "5m", "90s", "1h", "0.5" (hours)
 Vec3 parse_vec3(const std::string& option, const std::string& text);             // "x,y,z"
+std::vector<std::string> split(const std::string& text, char separator);         // "a,b" to a and b
 Rgb parse_rgb(const std::string& option, const std::string& text);               // "v" or "r,g,b", not negative
 Date parse_date(const std::string& text);                                        // YYYY-MM-DD
 

@@ -6,6 +6,11 @@
 
 namespace daylit {
 
+/// Departures from what bake_plan chooses by BakeSettings::error, for reports that vary one thing at a time.
+struct BakeTuning {
+    double rays = 1.0, texels = 1.0;  // times the plan's own number of rays per receiver, of texels
+};
+
 struct BakeSettings {
     LightSettings light;
     double unit = 1.0;  // only noted in the file: the scene is in metres already
@@ -16,6 +21,7 @@ struct BakeSettings {
     int bounces = 64;  // at most; ends when the rest no longer counts
     std::uint64_t seed = 1;
     std::vector<std::string> parts;  // empty: auto
+    BakeTuning tuning;
 };
 
 /// Indirect light of the static geometry (dynamic nodes take no part). Same inputs, same bytes, for any number of

@@ -74,8 +74,8 @@ BakePlan plan_bake(const SceneFacts& facts, const LightModel& light, const BakeS
         plan.volume |= item.part == "volume" && item.done;
     }
     if (!plan.lightmap && !plan.volume) return plan;
-    plan.texel_budget = texel_budget(facts, settings.error);
-    plan.rays = rays_per_texel(settings.error);
+    plan.texel_budget = std::size_t(settings.tuning.texels * double(texel_budget(facts, settings.error)));
+    plan.rays = std::max(1, int(settings.tuning.rays * rays_per_texel(settings.error)));
     plan.probe_spacing = kProbeSpacing, plan.most_probes = kMostProbes;
     plan.probe_rays = kRaysOfTexelsPerProbe * plan.rays;
     plan.encoding_error = 0.2 * settings.error;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "demo/parse.h"
 #include "engine/scene/day.h"
 
 namespace daylit {

@@ -46,8 +46,6 @@ struct WalkState {
     bool quit = false;
 };
 
-/// "07:30"; 24:00 is 00:00.
-std::string clock_text(double hour);
 /// Any real hour to [0,24).
 double wrapped_hour(double hour);
 

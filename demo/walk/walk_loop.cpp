@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "demo/parse.h"
 #include "demo/walk/panel.h"
 #include "demo/walk/sky_worker.h"
 #include "demo/walk/window.h"

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "demo/parse.h"
 #include "demo/walk/gaze.h"
 #include "demo/walk/sky_worker.h"
 #include "demo/walk/state.h"

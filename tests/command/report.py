@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+"""daylit report from end to end: the page is well-formed and whole, its numbers agree, and a second start goes on.
+
+Usage: report.py DAYLIT WORK_FOLDER
+"""
+import csv
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import xml.etree.ElementTree as xml
+
+daylit, work = sys.argv[1], pathlib.Path(sys.argv[2])
+shutil.rmtree(work, ignore_errors=True)
+work.mkdir(parents=True)
+scene, out = work / "rooms.glb", work / "report"
+
+
+def run(*arguments, status=0):
+    result = subprocess.run([daylit, *map(str, arguments)], capture_output=True, text=True, timeout=600)
+    assert result.returncode == status, f"{arguments}: status {result.returncode}\n{result.stderr}"
+    return result
+
+
+def report(*more, **keywords):
+    return run("report", scene, "-o", out, "--quick", "--error", "1", "--points", "20", "--spp", "32", "--hours", "11,12",
+               "--methods", "lightmap", "--size", "64x36", *more, **keywords)
+
+
+run("make", "two_rooms", "-o", scene)
+report()
+page = xml.parse(out / "index.html").getroot()  # well-formed
+text = "".join(page.itertext())
+data = json.loads((out / "report.json").read_text())
+rows = list(csv.DictReader((out / "report.csv").open()))
+
+# The same runs in all three.
+assert [run["name"] for run in data["runs"]] == [row["setting"] for row in rows]
+settings = [run["name"] for run in data["runs"] if run["method"] == "lightmap"]
+assert settings[0] == "base" and len(settings) > 5, settings
+for setting in settings:
+    assert setting in text, setting
+for run_, row in zip(data["runs"], rows):
+    assert not run_["failure"], run_
+    assert all(abs(float(row[key]) - value) <= 1e-6 * abs(value) for key, value in run_["values"].items()), row
+base = data["runs"][0]["values"]
+assert 0 < base["nrmse"] < 2 and abs(base["bias"]) < 1 and base["file_bytes"] > 1000 and base["bake_seconds"] > 0
+assert data["standard_error"]["surface"] > 0
+
+# Charts, and files that the page shows and that are there.
+svg = "{http://www.w3.org/2000/svg}"
+charts = [c for c in page.iter(svg + "svg") if c.get("role") == "img"]
+assert len(charts) >= 3 and all(list(c.iter(svg + "circle")) for c in charts), len(charts)
+assert any("best" in circle.get("class") for circle in page.iter(svg + "circle"))
+shown = [image.get("src") for image in page.iter("img")]
+assert bool(shown) != bool(data["no_pictures"]), "pictures, or why not"
+for image in shown:
+    assert (out / image).stat().st_size > 0, image
+for attribute in (value for element in page.iter() for value in element.attrib.values()):
+    assert "://" not in attribute, attribute
+
+# A second start finds everything; with other settings, or after a loss, it measures what is missing.
+def numbers(data):
+    times = ("seconds", "peak_bytes")
+    return [{k: v for k, v in run["values"].items() if not any(t in k for t in times)} for run in data["runs"]]
+
+
+before = (out / "report.csv").read_text()
+assert "were there from before" in report().stderr
+assert (out / "report.csv").read_text() == before
+(out / "runs" / "lightmap-base.json").unlink()
+report()
+assert numbers(json.loads((out / "report.json").read_text())) == numbers(data), "not deterministic"
+
+run("report", scene, "-o", out, "--methods", "sparkle", status=2)
+run("report", scene, "-o", out, "--hours", "25", status=1)
+run("report", scene, "-o", scene, "--quick", status=1)
+run("report", scene, status=2)
+assert (out / "report.csv").exists()
+print("passed")
