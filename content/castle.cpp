@@ -19,9 +19,10 @@ Surface plain(const std::string& name, const Rgb& color, float roughness, float 
     return s;
 }
 
-Surface glowing(const std::string& name, const Rgb& color, const Rgb& emission) {
+Surface glowing(const std::string& name, const Rgb& color, const Rgb& emission, Lit lit = Lit::Always) {
     Surface s = plain(name, color, 0.9f);
     s.emission = emission;
+    s.lit = lit;
     return s;
 }
 
@@ -58,9 +59,11 @@ Palette make_palette(Level& level) {
     p.polished_marble = variant(level, p.marble, "polished marble", Rgb(0.95f), 0.72f);
     p.red_wool = variant(level, p.wool, "red wool", {0.42f, 0.07f, 0.06f}, 1.0f);
     p.blue_wool = variant(level, p.wool, "blue wool", {0.09f, 0.14f, 0.3f}, 1.0f);
-    p.flame = level.add_surface(glowing("flame", {0.6f, 0.5f, 0.4f}, Rgb(1.0f, 0.55f, 0.2f) * 9000.0f));
+    p.flame = level.add_surface(glowing("flame", {0.6f, 0.5f, 0.4f}, Rgb(1.0f, 0.55f, 0.2f) * 9000.0f, Lit::Evening));
+    p.oil_flame = level.add_surface(glowing("oil flame", {0.6f, 0.5f, 0.4f}, Rgb(1.0f, 0.55f, 0.2f) * 9000.0f));
     p.embers = level.add_surface(glowing("embers", {0.2f, 0.15f, 0.12f}, Rgb(1.0f, 0.3f, 0.07f) * 420.0f));
-    p.bulb = level.add_surface(glowing("lamp flame", {0.6f, 0.5f, 0.4f}, Rgb(1.0f, 0.6f, 0.25f) * 9000.0f));
+    p.bulb =
+        level.add_surface(glowing("lamp flame", {0.6f, 0.5f, 0.4f}, Rgb(1.0f, 0.6f, 0.25f) * 9000.0f, Lit::Evening));
     Surface glass = plain("glass", Rgb(0.97f, 0.985f, 0.98f), 0.0f);
     glass.transmission = 1.0f;
     p.glass = level.add_surface(glass);

@@ -9,7 +9,8 @@ namespace daylit::content {
 struct Palette {
     int brick, ashlar, field_stone, plaster, oak, boards, marble, brass, iron, tapestry, banner, wool;
     int lattice, cobbles, gravel, grass, roof, leaves, bark, books;
-    int dark_oak, polished_marble, flame, embers, bulb, glass, pane, gauze, silver, wax, water, earthenware, ash;
+    int dark_oak, polished_marble, flame, oil_flame, embers, bulb, glass, pane, gauze, silver, wax, water, earthenware,
+        ash;
     int red_wool, blue_wool, skin, hair, leather, steel, gold, dark_glass, bread, apple, wine_red;
 };
 Palette make_palette(Level& level);
@@ -40,7 +41,7 @@ void add_moving_things(Castle& castle);
 void add_cameras(Castle& castle);
 
 // Kits that several rooms use.
-void add_candle(MeshBuilder& b, const Palette& use, const Vec3& foot, float height);
+void add_candle(MeshBuilder& b, const Palette& use, int flame_material, const Vec3& foot, float height);
 void add_barrel(MeshBuilder& b, const Palette& use, const Mat4& place);
 void add_chest(MeshBuilder& b, const Palette& use, const Mat4& place);
 void add_goblet(MeshBuilder& b, int material, const Vec3& foot, float height);

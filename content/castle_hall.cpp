@@ -142,8 +142,9 @@ void add_candelabrum(MeshBuilder& b, const Palette& use, const Vec3& foot, float
         b.cylinder({float(side) * 0.15f, h * 0.8f + 0.015f, 0}, 0.028f, 0.03f, 12);
     }
     b.at(Mat4(1.0f));
-    add_candle(b, use, foot + Vec3(0, h, 0), 0.16f);
-    for (int side : {-1, 1}) add_candle(b, use, foot + Vec3(0.15f * float(side), h * 0.8f + 0.045f, 0), 0.14f);
+    add_candle(b, use, use.flame, foot + Vec3(0, h, 0), 0.16f);
+    for (int side : {-1, 1})
+        add_candle(b, use, use.flame, foot + Vec3(0.15f * float(side), h * 0.8f + 0.045f, 0), 0.14f);
 }
 
 void add_feast(Castle& c) {
@@ -283,10 +284,11 @@ void add_dais(Castle& c) {
             b.material(c.use.iron);
             b.tube(std::array{foot + Vec3(0, 1.66f, 0), p}, 0.012f, 6);
             b.cylinder(p + Vec3(0, 0.01f, 0), 0.04f, 0.02f, 10);
-            add_candle(b, c.use, p + Vec3(0, 0.03f, 0), 0.18f);
+            add_candle(b, c.use, c.use.flame, p + Vec3(0, 0.03f, 0), 0.18f);
         }
-        c.level.add_lamp({z < 17 ? "candelabrum north" : "candelabrum south", Rgb(1.0f, 0.56f, 0.22f) * 160.0f},
-                         foot + Vec3(0, 2.12f, 0));
+        c.level.add_lamp(
+            {z < 17 ? "candelabrum north" : "candelabrum south", Rgb(1.0f, 0.56f, 0.22f) * 160.0f, Lit::Evening},
+            foot + Vec3(0, 2.12f, 0));
     }
     c.level.add_object(b.take("candelabra"));
 }
@@ -308,7 +310,7 @@ void add_chandeliers(Castle& c) {
                 b.tube(std::array{p, centre + 0.06f * out}, 0.014f, 6);
             }
             b.cylinder(p + Vec3(0, 0.02f, 0), 0.06f, 0.02f, 12);
-            add_candle(b, c.use, p + Vec3(0, 0.04f, 0), 0.16f);
+            add_candle(b, c.use, c.use.flame, p + Vec3(0, 0.04f, 0), 0.16f);
         }
         b.material(c.use.iron);
         b.sphere(centre, 0.09f, 12);
@@ -316,7 +318,7 @@ void add_chandeliers(Castle& c) {
         b.sphere(centre + Vec3(0, 1.3f, 0), 0.06f, 10);
         // One light for the ten candles, inside the cone of rods: so high that the ring's shadow falls on the floor and
         // not as a bar along the walls.
-        c.level.add_lamp({"chandelier " + std::to_string(number++), Rgb(1.0f, 0.56f, 0.22f) * 620.0f},
+        c.level.add_lamp({"chandelier " + std::to_string(number++), Rgb(1.0f, 0.56f, 0.22f) * 620.0f, Lit::Evening},
                          centre + Vec3(0, 1.05f, 0));
     }
     c.level.add_object(b.take("chandeliers"));

@@ -14,11 +14,11 @@ constexpr std::array<Vec2, 6> kFlame = {Vec2(0, 0),    {0.16f, 0.1f},  {0.2f, 0.
 
 }  // namespace
 
-void add_candle(MeshBuilder& b, const Palette& use, const Vec3& foot, float height) {
+void add_candle(MeshBuilder& b, const Palette& use, int flame_material, const Vec3& foot, float height) {
     b.material(use.wax).cylinder(foot, 0.014f, height, 8);
     std::array<Vec2, 6> flame = kFlame;
     for (Vec2& p : flame) p *= 0.055f;
-    b.at(foot + Vec3(0, height + 0.004f, 0)).material(use.flame);
+    b.at(foot + Vec3(0, height + 0.004f, 0)).material(flame_material);
     b.lathe(flame, 8);
     b.at(Mat4(1.0f));
 }

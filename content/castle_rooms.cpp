@@ -121,7 +121,7 @@ void add_lamp_post(Castle& c, MeshBuilder& b, const Vec3& foot, const std::strin
                        Vec2(0.02f, low + 0.11f), Vec2(0, low + 0.15f)},
             10);
     b.at(Mat4(1.0f));
-    c.level.add_lamp({name, Rgb(1.0f, 0.6f, 0.26f) * 260.0f}, foot + Vec3(0, low + 0.27f, 0));
+    c.level.add_lamp({name, Rgb(1.0f, 0.6f, 0.26f) * 260.0f, Lit::Evening}, foot + Vec3(0, low + 0.27f, 0));
 }
 
 void add_well(MeshBuilder& b, const Palette& use, const Vec3& at) {
@@ -253,7 +253,7 @@ void furnish_treasury(Castle& c) {
                        Vec2(0.1f, 0.05f), Vec2(0, 0.04f)},
             24);
     b.at(Mat4(1.0f));
-    add_candle(b, c.use, lamp - Vec3(0, 0.17f, 0), 0.08f);
+    add_candle(b, c.use, c.use.oil_flame, lamp - Vec3(0, 0.17f, 0), 0.08f);
     c.level.add_object(b.take("hanging lamp"));
     c.level.add_lamp({"treasury lamp", Rgb(1.0f, 0.58f, 0.25f) * 90.0f},
                      lamp - Vec3(0, 0.28f, 0));  // under the bowl, which would shade the floor

@@ -123,6 +123,10 @@ tinygltf::Primitive primitive(Buffer& buffer, const Geometry& g, int material, c
     return p;
 }
 
+Value evening_extras() {
+    return object({{"daylit", object({{"lit", Value(std::string("evening"))}})}});
+}
+
 tinygltf::Material material(const Surface& s) {
     tinygltf::Material m;
     m.name = s.name;
@@ -140,6 +144,7 @@ tinygltf::Material material(const Surface& s) {
         m.emissiveFactor = {s.emission.r / peak, s.emission.g / peak, s.emission.b / peak};
         m.extensions["KHR_materials_emissive_strength"] = object({{"emissiveStrength", number(peak)}});
     }
+    if (s.lit == Lit::Evening) m.extras = evening_extras();
     if (s.transmission > 0.0f) {
         m.extensions["KHR_materials_transmission"] = object({{"transmissionFactor", number(s.transmission)}});
         m.extensions["KHR_materials_ior"] = object({{"ior", number(s.ior)}});
@@ -169,6 +174,7 @@ tinygltf::Light light(const Lamp& lamp) {
     const double peak = std::max({lamp.intensity.r, lamp.intensity.g, lamp.intensity.b});
     l.color = {lamp.intensity.r / peak, lamp.intensity.g / peak, lamp.intensity.b / peak};
     l.intensity = peak;
+    if (lamp.lit == Lit::Evening) l.extras = evening_extras();
     l.type = lamp.outer_cone > 0.0f ? "spot" : "point";
     if (lamp.outer_cone > 0.0f) {
         l.spot.innerConeAngle = lamp.inner_cone;

@@ -21,6 +21,7 @@ struct Surface {
     float roughness = 1.0f;
     float specular = 1.0f;       // KHR_materials_specular; 0: a pure Lambert surface
     Rgb emission = Rgb(0.0f);    // cd/m^2
+    Lit lit = Lit::Always;       // of emission
     int color_picture = -1;      // sRGB-coded
     int normal_picture = -1;     // tangent space, linear
     int roughness_picture = -1;  // G roughness, B metallic, linear; multiplies the factors
@@ -71,6 +72,7 @@ struct LevelCamera {
 struct Lamp {
     std::string name;
     Rgb intensity = Rgb(1.0f);  // cd
+    Lit lit = Lit::Always;
     float inner_cone = 0.0f, outer_cone = 0.0f;
 };
 

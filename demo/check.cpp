@@ -45,7 +45,9 @@ nlohmann::json describe(const LoadedScene& loaded) {
                      {"skins", scene.skins.size()},
                      {"directional_lights", facts.directional_lights},
                      {"point_lights", facts.point_lights},
-                     {"spot_lights", facts.spot_lights}};
+                     {"spot_lights", facts.spot_lights},
+                     {"lights_lit_in_the_evening", facts.evening_lights},
+                     {"triangles_lit_in_the_evening", facts.evening_triangles}};
     out["cameras"] = nlohmann::json::array();
     for (const Camera& camera : scene.cameras) out["cameras"].push_back(camera.name);
     out["animations"] = nlohmann::json::array();
@@ -65,7 +67,7 @@ void print_counts(const nlohmann::json& facts) {
         std::string words = name;
         for (char& c : words)
             if (c == '_') c = ' ';
-        std::printf("  %-20s %zu\n", words.c_str(), count.get<std::size_t>());
+        std::printf("  %-28s %zu\n", words.c_str(), count.get<std::size_t>());
     }
 }
 
@@ -77,13 +79,13 @@ void print(const nlohmann::json& facts) {
         const auto edge = [&](const char* end, int axis) {
             return facts["bounds"][end][std::size_t(axis)].get<double>();
         };
-        std::printf("  %-20s %g to %g, %g to %g, %g to %g m\n", "bounds x, y, z", edge("min", 0), edge("max", 0),
+        std::printf("  %-28s %g to %g, %g to %g, %g to %g m\n", "bounds x, y, z", edge("min", 0), edge("max", 0),
                     edge("min", 1), edge("max", 1), edge("min", 2), edge("max", 2));
     }
     for (const auto& camera : facts["cameras"])
-        std::printf("  %-20s %s\n", "camera", camera.get<std::string>().c_str());
+        std::printf("  %-28s %s\n", "camera", camera.get<std::string>().c_str());
     for (const auto& animation : facts["animations"])
-        std::printf("  %-20s %s, %g s\n", "animation", animation["name"].get<std::string>().c_str(),
+        std::printf("  %-28s %s, %g s\n", "animation", animation["name"].get<std::string>().c_str(),
                     animation["seconds"].get<double>());
     for (const auto& item : facts["plan"])
         std::printf("%s %-12s %s\n", item["needed"].get<bool>() ? "bake" : "skip",

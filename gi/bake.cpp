@@ -77,7 +77,7 @@ void bake_light(const Scene& scene, const WorldMesh& mesh, std::span<const Place
     const GatherHits hits = trace_hits(gather, how, {progress, 0.02, 0.42});
     const ProbeHits probes =
         trace_probes(gather, hits, wanted_positions(grid), plan.probe_rays, how, {progress, 0.42, 0.46});
-    const std::vector<Rgb> lamp_light = lamp_irradiance(gather, hits, how, {progress, 0.46, 0.5});
+    const std::vector<ByLit> lamp_light = lamp_irradiance(gather, hits, how, {progress, 0.46, 0.5});
     DaySolution day = solve_day(gather, hits, lamp_light, day_light(light, plan.hours), how, {progress, 0.5, 0.95});
     const std::vector<Keyframe> keyframes = choose_keyframes(light, plan.hours);
 

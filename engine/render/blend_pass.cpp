@@ -66,11 +66,10 @@ DrawCount BlendPass::draw(DrawScene& scene, const View& view, const FrameDefines
     for (const BlendRun& run : order.runs) {
         const Geometry& part = *scene.parts[run.part];
         const Batch& batch = part.mesh().batches[run.batch];
-        std::vector<std::string> defines = surface_defines(scene.material(batch), batch.vertex_colors);
-        const std::vector<std::string>& frame = frame_defines[std::size_t(run.part)];
-        defines.insert(defines.end(), frame.begin(), frame.end());
         part.bind();
-        const Program& program = scene.programs.get("surface.vert", "surface.frag", defines);
+        const Program& program = scene.programs.get(
+            "surface.vert", "surface.frag",
+            frame_defines.with(surface_defines(scene.material(batch), batch.vertex_colors), std::size_t(run.part), {}));
         program.use();
         set_lamp_bits(program, Lights().lamps);
         scene.materials->bind(batch.material);

@@ -15,6 +15,15 @@ void cull_faces(bool on) {
 
 }  // namespace
 
+std::vector<std::string> FrameDefines::with(std::vector<std::string> own, std::size_t part_number,
+                                            const Lights& lights) const {
+    const auto add = [&](const std::vector<std::string>& more) { own.insert(own.end(), more.begin(), more.end()); };
+    add(part[part_number]);
+    if (lights.suns) add(suns);
+    if (lights.lamps != LampBits{}) add(lamps);
+    return own;
+}
+
 void DrawCount::add(const DrawList& list) {
     draws += list.empty() ? 0 : 1;
     triangles += list.triangles;
@@ -175,10 +184,8 @@ DrawCount DrawScene::draw_surfaces(const FrameDefines& frame_defines, const Frus
             cull_faces(!material(batch).double_sided);
             for (const auto& [lights, list] : lists) {
                 count.add(list);
-                const std::vector<std::string>& more = frame_defines[lights.suns ? p : 2];
-                std::vector<std::string> defines = own;
-                defines.insert(defines.end(), more.begin(), more.end());
-                const Program& program = programs.get("surface.vert", "surface.frag", defines);
+                const Program& program =
+                    programs.get("surface.vert", "surface.frag", frame_defines.with(own, p, lights));
                 program.use();
                 set_lamp_bits(program, lights.lamps);
                 Geometry::draw(list);

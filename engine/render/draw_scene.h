@@ -19,10 +19,6 @@ struct DrawCount {
     void add(const DrawCount& other);
 };
 
-/// What the frame asks of every surface program: for the part that stands, the part that moves, and for what stands
-/// where no sun reaches, whose programs have no code for suns: even code that is skipped costs a software driver much.
-using FrameDefines = std::array<std::vector<std::string>, 3>;
-
 /// A bit for each lamp that may light something.
 using LampBits = std::array<std::uint32_t, 4>;
 
@@ -31,6 +27,15 @@ struct Lights {
     LampBits lamps = {~0u, ~0u, ~0u, ~0u};
     bool suns = true;
     bool operator==(const Lights&) const = default;
+};
+
+/// What the frame asks of every surface program. Where no sun or no lamp reaches, programs have no code for them: even
+/// code that is skipped costs a software driver much.
+struct FrameDefines {
+    std::array<std::vector<std::string>, 2> part;  // what stands, what moves
+    std::vector<std::string> suns, lamps;
+    /// A material's own, with all that these lights need.
+    std::vector<std::string> with(std::vector<std::string> own, std::size_t part_number, const Lights& lights) const;
 };
 
 /// Tells a surface program which lamps to evaluate.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <memory>
 
 #include "engine/gl/target.h"
 
@@ -23,7 +22,12 @@ int texels_for(std::size_t layers) {
     return texels;
 }
 
-bool same(const LampFit& a, const LampFit& b) { return !std::memcmp(&a.block, &b.block, sizeof a.block); }
+/// The same maps: all but how bright it shines.
+bool same(const LampFit& a, const LampFit& b) {
+    glsl::LampBlock block = a.block;
+    block.intensity = Vec4(Vec3(b.block.intensity), block.intensity.w);
+    return !std::memcmp(&block, &b.block, sizeof block);
+}
 
 }  // namespace
 
@@ -150,10 +154,6 @@ DrawCount LampShadow::draw(DrawScene& scene) {
             count.add(scene.draw_casters(matrix, frustum(matrix, true)));
         }
     find_lit_clusters(scene);
-    auto block = std::make_unique<glsl::LampsBlock>();
-    for (std::size_t i = 0; i < fits_.size(); ++i) block->lamps[i] = fits_[i].block;
-    if (!block_) block_ = make_buffer(std::as_bytes(std::span(block.get(), 1)), GL_DYNAMIC_STORAGE_BIT);
-    else glNamedBufferSubData(block_.get(), 0, sizeof *block, block.get());
     drawn_ = fits_;
     drawn_version_ = scene.version;
     return count;
@@ -163,10 +163,14 @@ bool LampShadow::any_spots() const {
     return std::any_of(fits_.begin(), fits_.end(), [](const LampFit& fit) { return fit.block.axis_x.w > -1.5f; });
 }
 
-void LampShadow::use(glsl::FrameBlock& frame) const {
+void LampShadow::use(glsl::FrameBlock& frame) {
     frame.counts.y = float(fits_.size());
     frame.counts.w = float(texels_);
     if (fits_.empty()) return;
+    if (!block_) block_ = make_buffer(std::vector<glsl::LampsBlock>(1), GL_DYNAMIC_STORAGE_BIT);
+    std::vector<glsl::LampBlock> lamps;
+    for (const LampFit& fit : fits_) lamps.push_back(fit.block);
+    glNamedBufferSubData(block_.get(), 0, GLsizeiptr(lamps.size() * sizeof lamps[0]), lamps.data());
     bind_texture(8, depth_.get());
     glBindBufferBase(GL_UNIFORM_BUFFER, 2, block_.get());
 }

@@ -36,7 +36,7 @@ class LampShadow {
     int maps_drawn() const { return maps_drawn_; }
     std::size_t lamp_count() const { return fits_.size(); }
     /// Lamps to uniform block 2, their maps to unit 8.
-    void use(glsl::FrameBlock& frame) const;
+    void use(glsl::FrameBlock& frame);
 
     bool any_spots() const;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 
 #include "engine/gl/target.h"
@@ -129,7 +130,7 @@ Materials::Materials(const Scene& scene, const std::vector<bool>& used) : scene_
         const auto refs = slots(scene.materials[i]);
         for (std::size_t slot = 0; slot < refs.size(); ++slot) add_texture(*refs[slot], slot == 0 || slot == 3);
     }
-    blocks_ = make_buffer(bytes);
+    blocks_ = make_buffer(bytes, GL_DYNAMIC_STORAGE_BIT);
     for (const Texture& texture : scene.textures) samplers_.push_back(sampler(texture));
     // Mesa's software driver takes hundreds of fetches for it, and hangs where textureLod meets such a sampler (22.3).
     if (has_extension("GL_EXT_texture_filter_anisotropic") && !software_driver())
@@ -162,6 +163,18 @@ void Materials::bind(std::uint32_t material) const {
 void Materials::bind_coverage(std::uint32_t material) const {
     glBindBufferRange(GL_UNIFORM_BUFFER, 1, blocks_.get(), GLintptr(material) * stride_, sizeof(glsl::MaterialBlock));
     bind_texture(0, scene_.materials[material].base_color_texture, true);
+}
+
+void Materials::set_evening(float evening) {
+    if (evening == evening_) return;
+    evening_ = evening;
+    for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
+        const Material& material = scene_.materials[i];
+        if (material.lit != Lit::Evening) continue;
+        const Rgb emission = material.emission * evening;
+        glNamedBufferSubData(blocks_.get(), GLintptr(i) * stride_ + GLintptr(offsetof(glsl::MaterialBlock, emission)),
+                             sizeof emission, &emission);
+    }
 }
 
 void Materials::set_fine(bool fine) {

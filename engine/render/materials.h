@@ -34,6 +34,9 @@ class Materials {
     /// half the texels to fetch, which is what a frame of a software driver mostly costs.
     void set_fine(bool fine);
 
+    /// Share of their light that emitters lit in the evening give; 1 at first.
+    void set_evening(float evening);
+
     std::size_t texture_bytes() const { return texture_bytes_; }
 
   private:
@@ -47,6 +50,7 @@ class Materials {
     std::vector<GlSampler> samplers_;                     // one per Scene::textures
     std::size_t texture_bytes_ = 0;
     float largest_anisotropy_ = 1.0f;
+    float evening_ = 1.0f;
     bool fine_ = true;
 };
 

@@ -103,7 +103,6 @@ struct Renderer::State {
     FrameFacts facts(const FrameSettings& frame);
     glsl::FrameBlock frame_block(const FrameSettings& frame) const;
     FrameDefines frame_defines(Layer show) const;
-    std::vector<std::string> part_defines(Layer show, bool standing, bool suns) const;
 };
 
 namespace {
@@ -229,6 +228,8 @@ void Renderer::set_pose(const Pose& pose) {
 void Renderer::set_lighting(const Lighting& lighting) {
     state_->lighting.suns = lighting.suns;
     if (state_->lighting.suns.size() > glsl::kMaxSuns) state_->lighting.suns.resize(glsl::kMaxSuns);
+    state_->lighting.scales.evening = lighting.scales.evening;
+    state_->draw.materials->set_evening(lighting.scales.evening);
     state_->sky.set_environment(lighting.sky);
 }
 
@@ -244,7 +245,7 @@ FrameFacts Renderer::State::facts(const FrameSettings& frame) {
     if (shows_straight_light(frame.show)) {
         f.sun_maps_stale = sun_shadow.plan(lighting.suns, draw, frame.view.eye,
                                            frame.samples_per_side > 1 ? kFineSunTexels : kSunTexels);
-        f.lamp_maps_stale = lamp_shadow.plan(lamps, draw);
+        f.lamp_maps_stale = lamp_shadow.plan(lit_lamps(lamps, lighting), draw);
         f.lamps = lamp_shadow.lamp_count();
     }
     f.any_through = draw.any_through;
@@ -270,24 +271,18 @@ glsl::FrameBlock Renderer::State::frame_block(const FrameSettings& frame) const 
 }
 
 FrameDefines Renderer::State::frame_defines(Layer show) const {
-    return {part_defines(show, true, true), part_defines(show, false, true), part_defines(show, true, false)};
-}
-
-std::vector<std::string> Renderer::State::part_defines(Layer show, bool standing, bool suns) const {
-    std::vector<std::string> defines = {show_define(show)};
-    if (shows_straight_light(show)) {
-        if (suns && !lighting.suns.empty()) {
-            defines.push_back("SUNS " + std::to_string(lighting.suns.size()));
-            defines.push_back("SHADOW_TAPS 16");
-            if (draw.any_veils) defines.push_back("BLEND_CASTERS " + std::to_string(kVeils));
-        }
-        if (lamp_shadow.lamp_count() > 0) {
-            defines.push_back("LAMPS " + std::to_string((lamp_shadow.lamp_count() + 31) / 32));
-            if (lamp_shadow.any_spots()) defines.push_back("SPOTS");
-        }
+    FrameDefines defines;
+    for (std::vector<std::string>& part : defines.part) part.push_back(show_define(show));
+    if (shows_straight_light(show) && !lighting.suns.empty()) {
+        defines.suns = {"SUNS " + std::to_string(lighting.suns.size()), "SHADOW_TAPS 16"};
+        if (draw.any_veils) defines.suns.push_back("BLEND_CASTERS " + std::to_string(kVeils));
     }
-    if (standing && baked_light && shows_baked_light(show)) defines.push_back("LIGHTMAP");
-    if (!standing && baked_volume && shows_baked_light(show)) defines.push_back("VOLUME");
+    if (shows_straight_light(show) && lamp_shadow.lamp_count() > 0) {
+        defines.lamps = {"LAMPS " + std::to_string((lamp_shadow.lamp_count() + 31) / 32)};
+        if (lamp_shadow.any_spots()) defines.lamps.push_back("SPOTS");
+    }
+    if (baked_light && shows_baked_light(show)) defines.part[0].push_back("LIGHTMAP");
+    if (baked_volume && shows_baked_light(show)) defines.part[1].push_back("VOLUME");
     return defines;
 }
 

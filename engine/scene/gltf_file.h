@@ -107,6 +107,10 @@ void read_meshes(File& file, Scene& scene);
 
 // --- gltf_node.cpp: the tree, cameras, lights, skins, instances, extras.daylit
 SceneExtras read_extras(File& file);
+/// The object extras.daylit; null when there is none.
+const tinygltf::Value* daylit_extras(const tinygltf::Value& extras);
+/// Of a material or a light; a word that daylit does not know is noted.
+Lit read_lit(File& file, const tinygltf::Value& extras, const std::string& where);
 void read_nodes(File& file, Scene& scene);
 /// What only the whole scene shows: joints against skins, placed sizes, dynamic nodes, accessors of no use.
 void check_placement(File& file, Scene& scene);

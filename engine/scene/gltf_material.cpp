@@ -181,6 +181,7 @@ void read_emission(File& file, const tinygltf::Material& in, Material& out, cons
     for (int c = 0; c < 3; ++c)
         if (!std::isfinite(out.emission[c])) file.fail(at, "emits more than a float can hold");
     out.emission_texture = texture_ref(file, in.emissiveTexture, at + " emissiveTexture");
+    out.lit = read_lit(file, in.extras, at);
 }
 
 /// --materials lambert: base colour and emission are left.

@@ -15,11 +15,6 @@ constexpr std::uint64_t kMaxPlacedVertices = std::uint64_t(1) << 26;
 // Beyond this, float positions are 8 m apart and squared areas leave a float's range.
 constexpr float kMaxCoordinate = 1.0e8f;
 
-const Value* daylit_extras(const Value& extras) {
-    if (!extras.IsObject() || !extras.Has("daylit") || !extras.Get("daylit").IsObject()) return nullptr;
-    return &extras.Get("daylit");
-}
-
 int default_scene(const File& file) {
     if (file.model.defaultScene != -1) {
         if (!in_range(file.model.defaultScene, file.model.scenes))
@@ -207,6 +202,7 @@ void read_light(File& file, Scene& scene, int node, int index, const std::string
         }
     }
     light.range = std::max(file.number(in.range * file.unit, at + " range"), 0.0f);
+    light.lit = read_lit(file, in.extras, at);
     scene.nodes[std::size_t(node)].light = int(scene.lights.size());
     scene.lights.push_back(light);
 }
@@ -386,6 +382,22 @@ void note_unused_accessors(File& file) {
 }
 
 }  // namespace
+
+const Value* daylit_extras(const Value& extras) {
+    if (!extras.IsObject() || !extras.Has("daylit") || !extras.Get("daylit").IsObject()) return nullptr;
+    return &extras.Get("daylit");
+}
+
+Lit read_lit(File& file, const Value& extras, const std::string& where) {
+    const Value* values = daylit_extras(extras);
+    if (!values || !values->Has("lit")) return Lit::Always;
+    const Value& value = values->Get("lit");
+    const std::string word = value.IsString() ? value.Get<std::string>() : "";
+    if (word == "evening") return Lit::Evening;
+    if (word != "always")
+        file.note(where + " extras.daylit.lit", "is neither \"always\" nor \"evening\"; always is taken");
+    return Lit::Always;
+}
 
 SceneExtras read_extras(File& file) {
     SceneExtras extras;

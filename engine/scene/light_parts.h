@@ -22,7 +22,7 @@ struct LightScales {
     Rgb overcast = Rgb(0.0f);  // cd/m^2 at the overcast sky's zenith
     Rgb ground = Rgb(0.0f);    // lux of the sun on level ground, as seen below the horizon
     float night = 0.0f;
-    float evening = 1.0f;
+    float evening = 1.0f;  // share of their full light; follows the sun (evening_share() in sky.h)
     bool operator==(const LightScales&) const = default;
 };
 

@@ -17,6 +17,7 @@ std::vector<PlacedLight> placed_lights(const Scene& scene, const Pose& pose) {
         const double length = glm::length(forward);
         if (length > 0) out.direction = Vec3(forward / length);
         out.intensity = light.intensity;
+        out.lit = light.lit;
         out.range = light.range;  // the extension leaves it unscaled by the node
         out.cos_inner = std::cos(light.inner_cone);
         out.cos_outer = std::cos(light.outer_cone);

@@ -62,8 +62,9 @@ struct PlacedLight {
     LightKind kind = LightKind::Point;
     Vec3 position = Vec3(0.0f);
     Vec3 direction = Vec3(0, 0, -1);  // the way it shines, unit
-    Rgb intensity = Rgb(0.0f);        // cd, or lux for directional
-    float range = 0.0f;               // 0: infinite
+    Rgb intensity = Rgb(0.0f);        // cd, or lux for directional; when it is lit
+    Lit lit = Lit::Always;
+    float range = 0.0f;  // 0: infinite
     float cos_inner = 1.0f, cos_outer = 0.0f;
     int node = -1;
 };

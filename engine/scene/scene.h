@@ -36,6 +36,10 @@ struct TextureRef {
 
 enum class AlphaMode : std::uint8_t { Opaque, Mask, Blend };
 
+/// When a lamp or a material's emission shines, its extras.daylit.lit: "always" (the default) or from dusk till dawn,
+/// "evening" (sky.h says how the change comes).
+enum class Lit : std::uint8_t { Always, Evening };
+
 /// A metallic-roughness material (specular-glossiness ones are converted on load).
 struct Material {
     std::string name;
@@ -49,6 +53,7 @@ struct Material {
     TextureRef occlusion_texture;  // kept for `check`; unused, since occlusion is computed
     Rgb emission = Rgb(0.0f);      // radiance in cd/m^2: emissiveFactor * emissive_strength
     TextureRef emission_texture;   // sRGB-coded, multiplies emission
+    Lit lit = Lit::Always;         // of emission
     AlphaMode alpha_mode = AlphaMode::Opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;  // concerns only what the camera sees
@@ -106,6 +111,7 @@ struct PunctualLight {
     LightKind kind = LightKind::Point;
     int node = -1;
     Rgb intensity = Rgb(1.0f);  // candela for point and spot, lux for directional; colour times intensity
+    Lit lit = Lit::Always;      // directional ones are suns, and always there
     float range = 0.0f;         // metres, 0: infinite; glTF's window max(1 - (d/range)^4, 0)
     float inner_cone = 0.0f;    // radians (spot)
     float outer_cone = 0.78539816f;

@@ -51,6 +51,7 @@ void count_primitive(const Scene& scene, const std::vector<Gloss>& gloss, const 
     const Material& material = scene.materials[m];
     (node.dynamic ? facts.dynamic_triangles : facts.static_triangles) += triangles;
     if (material.emission != Rgb(0.0f)) facts.emissive_triangles += triangles;
+    if (material.emission != Rgb(0.0f) && material.lit == Lit::Evening) facts.evening_triangles += triangles;
     if (material.alpha_mode == AlphaMode::Mask) facts.masked_triangles += triangles;
     const bool sheer =
         material.base_color.a < 1.0f || material.base_color_texture.texture >= 0 || !primitive.colors.empty();
@@ -76,10 +77,12 @@ SceneFacts scene_facts(const Scene& scene) {
         for (const Primitive& primitive : scene.meshes[std::size_t(node.mesh)].primitives)
             count_primitive(scene, gloss, node, primitive, facts);
     }
-    for (const PunctualLight& light : scene.lights)
+    for (const PunctualLight& light : scene.lights) {
         ++(light.kind == LightKind::Directional ? facts.directional_lights
            : light.kind == LightKind::Spot      ? facts.spot_lights
                                                 : facts.point_lights);
+        facts.evening_lights += light.kind != LightKind::Directional && light.lit == Lit::Evening;
+    }
     facts.bounds = bounds(world_mesh(scene, pose_scene(scene), Part::All));
     return facts;
 }

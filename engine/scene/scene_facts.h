@@ -11,6 +11,7 @@ struct SceneFacts {
     std::size_t static_nodes_with_mesh = 0, dynamic_nodes_with_mesh = 0;
     std::size_t directional_lights = 0, point_lights = 0, spot_lights = 0;
     std::size_t emissive_triangles = 0;
+    std::size_t evening_lights = 0, evening_triangles = 0;    // of these: lit in the evening only
     std::size_t masked_triangles = 0, blended_triangles = 0;  // blended: some coverage below 1
     float static_exponent =
         0.0f;  // largest Phong exponent of a static surface whose lobe reflects kVisibleGloss or more

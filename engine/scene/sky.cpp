@@ -137,6 +137,18 @@ std::vector<Sun> scene_suns(const std::vector<PlacedLight>& placed) {
 
 }  // namespace
 
+float evening_share(double elevation) {
+    constexpr double kLit = -1.0 * kDegree, kDark = 3.0 * kDegree;
+    const double t = std::clamp((kDark - elevation) / (kDark - kLit), 0.0, 1.0);
+    return float(t * t * (3.0 - 2.0 * t));
+}
+
+std::vector<PlacedLight> lit_lamps(std::vector<PlacedLight> lamps, const Lighting& lighting) {
+    for (PlacedLight& lamp : lamps)
+        if (lamp.kind != LightKind::Directional) lamp.intensity *= lighting.share(lamp.lit);
+    return lamps;
+}
+
 struct LightModel::State {
     LightSettings settings;
     std::vector<Sun> fixed_suns;      // SunSource other than Day
@@ -178,6 +190,7 @@ struct LightModel::State {
     /// clear_map   of this hour, without ground; looked at under clouds only
     LightScales scales(const SunState& sun, double clouds, const Image& clear_map) const {
         LightScales scales{.sun = sun_scale(sun, clouds)};
+        if (air) scales.evening = evening_share(sun.position.apparent_elevation);
         if (settings.sky != SkySource::Day) {
             scales.clear = fixed_sky.black() ? 0.0f : 1.0f;
             return scales;
@@ -207,6 +220,10 @@ std::vector<Sun> LightModel::suns(double hour) const {
     suns[0].irradiance = state_->sun_scale(sun_state(state_->settings.day, hour), state_->settings.clouds);
     if (luminance(suns[0].irradiance) <= 0.0f) suns.clear();
     return suns;
+}
+
+float LightModel::evening(double hour) const {
+    return constant() ? 1.0f : evening_share(sun_position(state_->settings.day, hour).apparent_elevation);
 }
 
 Lighting LightModel::at(double hour) const {

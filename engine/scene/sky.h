@@ -52,12 +52,20 @@ struct Lighting {
     std::vector<Sun> suns;  // empty by night; SunSource::Scene may give several
     Environment sky;
     LightScales scales = {};  // what the parts of LightModel were multiplied by
+    float share(Lit lit) const { return lit == Lit::Evening ? scales.evening : 1.0f; }
 };
 
 /// The parts of the day's sky that no hour changes (light_parts.h): O, G and N; empty maps where the sky is fixed.
 struct SkyParts {
     Environment overcast, ground, night;
 };
+
+/// LightScales::evening for a sun at this elevation (radians): 0 from 3 degrees above the horizon on, 1 from 1 degree
+/// below it, smooth between (3 t^2 - 2 t^3), as people light their lamps before it is dark.
+float evening_share(double elevation);
+
+/// The lamps with the intensity that they have in this light.
+std::vector<PlacedLight> lit_lamps(std::vector<PlacedLight> lamps, const Lighting& lighting);
 
 /// Computes the light of any hour; made once per scene and settings (holds the atmosphere's tables or the sky image).
 /// Thread-safe to call. throws Error for an unreadable or unusable sky file.
@@ -73,6 +81,8 @@ class LightModel {
     Lighting at(double hour) const;
     /// As at(), without the sky's map: only the suns. Cheap.
     std::vector<Sun> suns(double hour) const;
+    /// As at().scales.evening: follows the day's sun where sun or sky follow the day, and is 1 in constant light. Cheap.
+    float evening(double hour) const;
     /// True when the light is the same at all hours.
     bool constant() const;
 

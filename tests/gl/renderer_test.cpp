@@ -62,6 +62,34 @@ TEST_F(RendererTest, plane_under_a_lamp_is_intensity_over_distance_squared_gl) {
     }
 }
 
+TEST_F(RendererTest, what_is_lit_in_the_evening_follows_the_dimmer_gl) {
+    Material glow = lambert(Rgb(0.5f));
+    glow.emission = Rgb(40.0f);
+    glow.lit = Lit::Evening;
+    Scene scene = scene_of({ground(Vec3(0), 5, 5, 0)}, {glow});
+    Node node;
+    node.translation = {0, 2, 0};
+    node.light = 0;
+    scene.order.push_back(int(scene.nodes.size()));
+    scene.nodes.push_back(node);
+    PunctualLight lamp;
+    lamp.node = int(scene.nodes.size()) - 1;
+    lamp.intensity = Rgb(300.0f);
+    lamp.lit = Lit::Evening;
+    scene.lights.push_back(lamp);
+    Renderer renderer(scene, nullptr);
+    const double full = 40.0 + 0.5 / kPi * 300.0 / 4.0;
+    for (const float evening : {0.0f, 0.25f, 1.0f, 0.5f, 0.0f}) {
+        Lighting lighting{{}, {Image(1, 1)}};
+        lighting.scales.evening = evening;
+        renderer.set_lighting(lighting);
+        const FrameReport report = renderer.draw(frame_of(from_above(0.2f), 8, 8));
+        EXPECT_NEAR(renderer.read_radiance().at(4, 4).g, evening * full, 0.005 * full) << evening;
+        // No maps for lamps that are out, and none again for lamps that are merely dimmed.
+        EXPECT_EQ(pass(report, "lamp shadows").ran, evening == 0.25f) << evening;
+    }
+}
+
 /// Uncovered share of a unit disc of which everything beyond the chord at `x` (in radii from its centre) is hidden.
 double disc_share(double x) {
     x = std::clamp(x, -1.0, 1.0);

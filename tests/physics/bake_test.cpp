@@ -125,6 +125,27 @@ TEST_F(Bake, AgreesWithTheReferenceInTheLitRoom) {
     EXPECT_LT(std::sqrt(square / double(found.size())) / (truth / double(found.size())), 0.12);
 }
 
+TEST_F(Bake, LampsOfTheEveningShineInTheEveningOnly) {
+    Scene scene = made("thin_wall");  // one lamp on one side of a wall; no sun or sky comes in
+    ASSERT_EQ(scene.lights.size(), 1u);
+    scene.lights[0].lit = Lit::Evening;
+    BakeSettings settings = quick(12.0);
+    settings.to_hour = 23.0, settings.every_hours = 11.0;
+    const Baked baked = bake(scene, settings);
+    scene.lights[0].lit = Lit::Always;
+    const Baked always = bake(scene, settings);
+    const auto mean_at = [&](const Baked& from, double hour) {
+        double sum = 0.0;
+        for (const Lookup& l : look_up(scene, from, hour, [](const Vec3&p, const Vec3&) {
+                 return p.x > -3.05f && p.x < -0.005f && p.y > -0.05f && p.y < 2.65f && std::abs(p.z) < 2.05f;
+             }))
+            sum += luminance(l.irradiance);
+        return sum;
+    };
+    EXPECT_LT(mean_at(baked, 12.0), 0.01 * mean_at(always, 12.0));
+    EXPECT_NEAR(mean_at(baked, 23.0) / mean_at(always, 23.0), 1.0, 0.02);
+}
+
 TEST_F(Bake, SameBytesForAnyNumberOfThreads) {
     const Scene scene = made("two_rooms");
     BakeSettings settings = quick(11.0, 1.0);

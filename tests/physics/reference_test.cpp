@@ -107,6 +107,38 @@ TEST(Reference, PointLampFollowsInverseSquares) {
     expect_relative(mean(picture.radiance), albedo * lux / float(kPi), 1.5 * kPercent);
 }
 
+TEST(Reference, WhatIsLitInTheEveningFollowsTheDimmer) {
+    TestScene test;
+    test.quad(test.add(lambert(Rgb(0.5f))), {-1, 0, 1}, {2, 0, 0}, {0, 0, -2});
+    Material glow = lambert(Rgb(0.0f), Rgb(20.0f));
+    glow.lit = Lit::Evening;
+    test.quad(test.add(glow), {-1, 2, -1}, {2, 0, 0}, {0, 0, 2});
+    std::vector<PlacedLight> lamps(1);
+    lamps[0].position = {0, 1, 0}, lamps[0].intensity = Rgb(30.0f), lamps[0].lit = Lit::Evening;
+    const std::vector<SurfaceSample> points(64, SurfaceSample{{0, 0, 0}, {0, 1, 0}});
+    const auto light = [&](float evening, Layer layer) {
+        Lighting lighting = no_light();
+        lighting.scales.evening = evening;
+        double sum = 0.0;
+        for (const Rgb& e : path_trace_irradiance(test.trace(), lighting, lamps, points, {.spp = 64, .layer = layer}))
+            sum += e.g / double(points.size());
+        return sum;
+    };
+    for (const Layer layer : {Layer::Final, Layer::Indirect}) {  // the lamp and the glow; the glow alone
+        const double full = light(1.0f, layer);
+        EXPECT_GT(full, 5.0);
+        EXPECT_NEAR(light(0.25f, layer) / full, 0.25, 1e-5);
+        EXPECT_EQ(light(0.0f, layer), 0.0);
+    }
+    // Seen by the eye too.
+    Lighting dusk = no_light();
+    dusk.scales.evening = 0.25f;
+    expect_relative(mean(path_trace(test.trace(), dusk, {}, pinpoint({0, 1, 0}, {0, 1, 0.1f}), 2, 2,
+                                    {.spp = 4, .layer = Layer::Direct})
+                             .radiance),
+                    Rgb(5.0f), 0.001 * kPercent);
+}
+
 /// Mean of E / pi over the parallelogram that faces its cross(u, v): the form factor to what emits 1 cd/m^2.
 double form_factor(const RayScene& rays, const Vec3& origin, const Vec3& u, const Vec3& v) {
     constexpr int kSide = 96;

@@ -109,6 +109,35 @@ TEST(GltfScene, lights_have_the_extension_s_defaults) {
     EXPECT_EQ(scene.lights[2].kind, LightKind::Directional);
 }
 
+TEST(GltfScene, extras_say_what_is_lit_in_the_evening) {
+    const Json evening = {{"daylit", {{"lit", "evening"}}}};
+    GltfBuilder builder = with_material({{"emissiveFactor", {1, 1, 1}}, {"extras", evening}});
+    builder.json["extensionsUsed"] = {"KHR_lights_punctual"};
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "point"}, {"extras", evening}},
+        {{"type", "point"}, {"extras", {{"daylit", {{"lit", "always"}}}}}},
+        {{"type", "point"}, {"extras", {{"daylit", {{"lit", "at noon"}}}}}}};
+    for (int i = 0; i < 3; ++i) {
+        Json node;
+        node["extensions"]["KHR_lights_punctual"]["light"] = i;
+        builder.json["nodes"].push_back(node);
+    }
+    builder.json["scenes"][0]["nodes"] = {0, 1, 2, 3};
+    const Scene scene = loaded(builder);
+    EXPECT_EQ(scene.materials[0].lit, Lit::Evening);
+    EXPECT_EQ(scene.materials.back().lit, Lit::Always);
+    ASSERT_EQ(scene.lights.size(), 3u);
+    EXPECT_EQ(scene.lights[0].lit, Lit::Evening);
+    EXPECT_EQ(scene.lights[1].lit, Lit::Always);
+    EXPECT_EQ(scene.lights[2].lit, Lit::Always);
+    ASSERT_EQ(scene.notes.size(), 1u);
+    EXPECT_NE(scene.notes[0].find("extras.daylit.lit"), std::string::npos) << scene.notes[0];
+    EXPECT_EQ(placed_lights(scene, pose_scene(scene))[0].lit, Lit::Evening);
+    const SceneFacts facts = scene_facts(scene);
+    EXPECT_EQ(facts.evening_lights, 1u);
+    EXPECT_EQ(facts.evening_triangles, 1u);
+}
+
 TEST(GltfScene, a_bare_material_is_gltf_s_default) {
     const Material material = material_of(Json::object());
     EXPECT_EQ(material.base_color, Rgba(1));

@@ -367,6 +367,43 @@ TEST(LightModel, FixedLightsArePartsAsTheyAre) {
     EXPECT_EQ(LightModel(settings, {}).scales(12.0, 0.0).sun, Rgb(1.0f));
 }
 
+TEST(LightModel, EveningComesSmoothlyWithTheSun) {
+    EXPECT_EQ(evening_share(3.01 * kDegree), 0.0f);
+    EXPECT_EQ(evening_share(-1.01 * kDegree), 1.0f);
+    EXPECT_NEAR(evening_share(1.0 * kDegree), 0.5f, 1e-6f);
+    float before = 0.0f;
+    for (double elevation = 4.0; elevation > -2.0; elevation -= 0.05) {
+        const float now = evening_share(elevation * kDegree);
+        EXPECT_GE(now, before) << elevation;
+        EXPECT_LT(now - before, 0.02f) << elevation;  // its steepest slope is 1.5 over 4 degrees
+        before = now;
+    }
+}
+
+TEST(LightModel, EveningFollowsTheDay) {
+    LightSettings settings = equator();
+    const LightModel model(settings, {});
+    for (const double elevation : {20.0, 2.0, 1.0, 0.0, -5.0}) {
+        const double hour = hour_at(settings.day, elevation);
+        EXPECT_EQ(model.at(hour).scales.evening, model.evening(hour));
+        EXPECT_NEAR(model.evening(hour), evening_share(elevation * kDegree), 0.02f) << elevation;
+    }
+    settings.sun = SunSource::None, settings.sky = SkySource::None;
+    EXPECT_EQ(LightModel(settings, {}).at(12.0).scales.evening, 1.0f);
+    EXPECT_EQ(LightModel(settings, {}).evening(12.0), 1.0f);
+}
+
+TEST(LightModel, EveningDimsTheLampsThatAreMeant) {
+    std::vector<PlacedLight> lamps(3);
+    for (PlacedLight& lamp : lamps) lamp.intensity = Rgb(8.0f), lamp.lit = Lit::Evening;
+    lamps[1].lit = Lit::Always;
+    lamps[2].kind = LightKind::Directional;
+    const std::vector<PlacedLight> lit = lit_lamps(lamps, {.suns = {}, .sky = {}, .scales = {.evening = 0.25f}});
+    EXPECT_EQ(lit[0].intensity, Rgb(2.0f));
+    EXPECT_EQ(lit[1].intensity, Rgb(8.0f));
+    EXPECT_EQ(lit[2].intensity, Rgb(8.0f));
+}
+
 TEST(LightModel, SameBytesForAnyNumberOfThreads) {
     const auto make = [] { return LightModel(LightSettings{}, {}).at(19.0); };
     const Lighting many = make();

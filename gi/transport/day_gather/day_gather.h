@@ -23,14 +23,23 @@ struct Receiver {
     bool back = false;
 };
 
+/// Light of what shines always and of what shines in the evening only, at its full strength.
+struct ByLit {
+    Rgb always = Rgb(0.0f), evening = Rgb(0.0f);
+    Rgb& of(Lit lit) { return lit == Lit::Evening ? evening : always; }
+    void operator+=(const ByLit& other) { always += other.always, evening += other.evening; }
+    void operator*=(float factor) { always *= factor, evening *= factor; }
+};
+
 struct GatherHits {
-    int rays = 0;                          // per receiver
-    std::vector<Receiver> receivers;       // the front of every texel in order, then backs
-    std::vector<std::uint32_t> hit;        // receivers * rays: a receiver, or kSkyBit | sky bin, or kNoLight
-    std::vector<float> scale;              // per receiver: 1 / rays that count; 0: the receiver is inside solid geometry
-    std::vector<std::uint16_t> usable;     // per receiver: bit k set when point k of its texel is not inside solid geometry
-    std::vector<float> nearness;           // per receiver: harmonic mean distance of what it sees, metres
-    std::vector<Rgb> emission;             // per receiver: lux straight from emissive surfaces
+    int rays = 0;                     // per receiver
+    std::vector<Receiver> receivers;  // the front of every texel in order, then backs
+    std::vector<std::uint32_t> hit;   // receivers * rays: a receiver, or kSkyBit | sky bin, or kNoLight
+    std::vector<float> scale;         // per receiver: 1 / rays that count; 0: the receiver is inside solid geometry
+    std::vector<std::uint16_t>
+        usable;                   // per receiver: bit k set when point k of its texel is not inside solid geometry
+    std::vector<float> nearness;  // per receiver: harmonic mean distance of what it sees, metres
+    std::vector<ByLit> emission;  // per receiver: lux straight from emissive surfaces
     bool buried(std::size_t receiver) const { return scale[receiver] == 0.0f; }
 };
 inline constexpr std::uint32_t kSkyBit = 1u << 31, kNoLight = ~0u;
@@ -55,12 +64,12 @@ GatherScene gather_scene(const RayScene& rays, const Atlas& atlas, const Texels&
 
 /// Rays of probes in free space, over the whole sphere.
 struct ProbeHits {
-    int rays = 0;                          // per probe
-    std::vector<Vec3> position;            // of each probe
-    std::vector<std::uint32_t> hit;        // probes * rays, as GatherHits::hit
-    std::vector<Vec3> direction;           // of each ray as it leaves the probe
-    std::vector<bool> buried;              // per probe: inside solid geometry
-    std::vector<std::array<Rgb, 9>> emission;  // per probe: SH of radiance straight from emissive surfaces
+    int rays = 0;                                // per probe
+    std::vector<Vec3> position;                  // of each probe
+    std::vector<std::uint32_t> hit;              // probes * rays, as GatherHits::hit
+    std::vector<Vec3> direction;                 // of each ray as it leaves the probe
+    std::vector<bool> buried;                    // per probe: inside solid geometry
+    std::vector<std::array<ByLit, 9>> emission;  // per probe: SH of radiance straight from emissive surfaces
     std::size_t count() const { return position.size(); }
 };
 
@@ -71,9 +80,9 @@ GatherHits trace_hits(const GatherScene& scene, const GatherSettings& settings, 
 ProbeHits trace_probes(const GatherScene& scene, const GatherHits& hits, std::span<const Vec3> positions, int rays,
                        const GatherSettings& settings, const StageProgress& progress);
 
-/// Straight light of punctual lamps on every receiver, lux.
-std::vector<Rgb> lamp_irradiance(const GatherScene& scene, const GatherHits& hits, const GatherSettings& settings,
-                                 const StageProgress& progress);
+/// Straight light of the punctual lamps on every receiver, lux.
+std::vector<ByLit> lamp_irradiance(const GatherScene& scene, const GatherHits& hits, const GatherSettings& settings,
+                                   const StageProgress& progress);
 
 /// Straight light of suns that stand still on every receiver, lux.
 std::vector<Rgb> sun_irradiance(const GatherScene& scene, const GatherHits& hits, std::span<const Sun> suns,
@@ -81,7 +90,7 @@ std::vector<Rgb> sun_irradiance(const GatherScene& scene, const GatherHits& hits
 
 /// The whole day's light at receivers.
 /// lamp_irradiance   straight light of punctual lamps on every receiver, lux
-DaySolution solve_day(const GatherScene& scene, const GatherHits& hits, std::span<const Rgb> lamp_irradiance,
+DaySolution solve_day(const GatherScene& scene, const GatherHits& hits, std::span<const ByLit> lamp_irradiance,
                       const DayLight& light, const GatherSettings& settings, const StageProgress& progress);
 
 /// SH of *indirect* radiance at a probe, cd/m^2, by what its rays met: [coefficient][component] of day.basis.

@@ -45,7 +45,7 @@ class ReceiverRays {
         const Points points = points_of(scene_, receiver);
         Random random(settings_.seed, 2 * std::uint64_t(receiver.texel) + receiver.back, 0);
         std::uint32_t* hit = out.hit.data() + r * std::size_t(out.rays);
-        std::vector<Rgb> emitted(std::size_t(out.rays), Rgb(0.0f));
+        std::vector<ByLit> emitted(std::size_t(out.rays));
         std::vector<float> nearness(std::size_t(out.rays), 0.0f);
         std::array<int, kMaxPoints> good{};
         const float covered = kCovered * scene_.texels.width[receiver.texel];
@@ -67,7 +67,8 @@ class ReceiverRays {
             hit[j] = texel == kNoTexel ? kNoLight : texel | (back ? kBackBit : 0u);
             nearness[std::size_t(j)] = 1.0f / std::max(met->distance, 0.1f * scene_.texels.width[receiver.texel]);
             if (sight_.emits(*met))
-                emitted[std::size_t(j)] = emitted_towards(ray, *met, glm::dot(direction, points.normal[k]));
+                emitted[std::size_t(j)].of(sight_.lit(*met)) =
+                    emitted_towards(ray, *met, glm::dot(direction, points.normal[k]));
         }
         reduce(r, points, good, emitted, nearness, random, out);
     }
@@ -80,12 +81,12 @@ class ReceiverRays {
 
     /// Drops points that see nothing but backs or are covered, and sums what is left.
     void reduce(std::size_t r, const Points& points, const std::array<int, kMaxPoints>& good,
-                const std::vector<Rgb>& emitted, const std::vector<float>& nearness, Random& random,
+                const std::vector<ByLit>& emitted, const std::vector<float>& nearness, Random& random,
                 GatherHits& out) const {
         std::uint32_t* hit = out.hit.data() + r * std::size_t(out.rays);
         int kept = 0, near_count = 0;
         float near_sum = 0.0f;
-        Rgb emission(0.0f);
+        ByLit emission;
         for (int j = 0; j < out.rays; ++j) {
             const std::size_t k = point_of_ray(j, points.count);
             if (good[k] == 0) {
@@ -103,7 +104,10 @@ class ReceiverRays {
         if (buried) std::fill(hit, hit + out.rays, kNoLight);
         out.scale[r] = buried ? 0.0f : 1.0f / float(kept);
         out.nearness[r] = near_sum > 0.0f ? float(near_count) / near_sum : 1e9f;
-        if (!buried) out.emission[r] = float(kPi) * out.scale[r] * emission + sampled_emission(r, points, random, out);
+        if (buried) return;
+        emission *= float(kPi) * out.scale[r];
+        emission += sampled_emission(r, points, random, out);
+        out.emission[r] = emission;
     }
 
     // Both ways of meeting an emitter are weighed by the power heuristic (Veach 1997).
@@ -112,8 +116,8 @@ class ReceiverRays {
         return power_heuristic(by_ray, float(kEmitterSamples) * sight_.emitter_pdf(ray, hit)) * sight_.emission(ray, hit);
     }
 
-    Rgb sampled_emission(std::size_t r, const Points& points, Random& random, const GatherHits& out) const {
-        Rgb sum(0.0f);
+    ByLit sampled_emission(std::size_t r, const Points& points, Random& random, const GatherHits& out) const {
+        ByLit sum;
         if (sight_.emitters().empty()) return sum;
         std::array<std::size_t, kMaxPoints> usable;
         std::size_t count = 0;
@@ -121,9 +125,11 @@ class ReceiverRays {
             if (out.usable[r] >> k & 1u) usable[count++] = k;
         for (int s = 0; s < kEmitterSamples; ++s) {
             const std::size_t k = usable[std::min(std::size_t(random.next() * float(count)), count - 1)];
-            sum += from_sample(points.position[k], points.normal[k], sight_.emitters().sample(points.position[k], random));
+            const LightSample light = sight_.emitters().sample(points.position[k], random);
+            sum.of(light.lit) += from_sample(points.position[k], points.normal[k], light);
         }
-        return sum / float(kEmitterSamples);
+        sum *= 1.0f / float(kEmitterSamples);
+        return sum;
     }
 
     Rgb from_sample(const Vec3& p, const Vec3& n, const LightSample& light) const {
@@ -149,7 +155,7 @@ void add_receivers(const std::vector<Receiver>& more, GatherHits& hits) {
     hits.scale.resize(count, 0.0f);
     hits.usable.resize(count, 0);
     hits.nearness.resize(count, 0.0f);
-    hits.emission.resize(count, Rgb(0.0f));
+    hits.emission.resize(count);
 }
 
 /// Charts whose backs are met, from receivers `first` on, by more rays than chance cracks let through.

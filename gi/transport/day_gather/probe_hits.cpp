@@ -20,9 +20,9 @@ Vec3 sample_sphere(const Vec2& u) {
     return direction_around_z(cosine, std::sqrt(std::max(1.0f - cosine * cosine, 0.0f)), u.y);
 }
 
-void add(std::array<Rgb, 9>& sh, const Rgb& radiance, const Vec3& direction) {
+void add(std::array<ByLit, 9>& sh, Lit lit, const Rgb& radiance, const Vec3& direction) {
     const glsl::Sh9 basis = glsl::sh_basis(direction);
-    for (std::size_t i = 0; i < 9; ++i) sh[i] += basis.c[i] * radiance;
+    for (std::size_t i = 0; i < 9; ++i) sh[i].of(lit) += basis.c[i] * radiance;
 }
 
 class ProbeRays {
@@ -49,7 +49,8 @@ class ProbeRays {
             // Both ways of meeting an emitter are weighed by the power heuristic (Veach 1997).
             const float weight =
                 power_heuristic(float(out.rays) / kSphere, float(kEmitterSamples) * sight_.emitter_pdf(ray, *met));
-            add(out.emission[p], weight * kSphere / float(out.rays) * sight_.emission(ray, *met), out.direction[i]);
+            add(out.emission[p], sight_.lit(*met), weight * kSphere / float(out.rays) * sight_.emission(ray, *met),
+                out.direction[i]);
         }
         buried = float(backs) > kMostBacks * float(out.rays);
         if (!sight_.emitters().empty()) sample_emitters(p, random, out);
@@ -72,7 +73,7 @@ class ProbeRays {
             if (light.radiance == Rgb(0.0f) || !(light.pdf > 0.0f)) continue;
             const float weight = power_heuristic(float(kEmitterSamples) * light.pdf, float(out.rays) / kSphere);
             const float share = weight * sight_.open(place, place, light) / (light.pdf * float(kEmitterSamples));
-            add(out.emission[p], share * light.radiance, light.direction);
+            add(out.emission[p], light.lit, share * light.radiance, light.direction);
         }
     }
 
@@ -113,8 +114,10 @@ std::vector<Rgb> gather_probe(const DaySolution& day, const ProbeHits& probes, s
         for (std::size_t i = 0; i < kCoefficients; ++i)
             for (std::size_t r = 0; r < components; ++r) sh[i * components + r] += scale * basis.c[i] * row[r];
     }
-    for (std::size_t i = 0; i < kCoefficients; ++i)
-        sh[i * components + day.basis.component_of(StillPart::Lamps)] += probes.emission[probe][i];
+    for (std::size_t i = 0; i < kCoefficients; ++i) {
+        sh[i * components + day.basis.component_of(StillPart::Evening)] += probes.emission[probe][i].evening;
+        sh[i * components + day.basis.component_of(StillPart::Lamps)] += probes.emission[probe][i].always;
+    }
     return sh;
 }
 

@@ -25,6 +25,9 @@ class Sight {
     /// Density, per solid angle, with which emitters().sample() finds what this ray met; 0: it does not shine.
     float emitter_pdf(const Ray& ray, const Hit& hit) const;
     bool emits(const Hit& hit) const { return materials_.emits(scene_.rays.mesh().materials[hit.triangle]); }
+    Lit lit(const Hit& hit) const {
+        return scene_.rays.scene().materials[scene_.rays.mesh().materials[hit.triangle]].lit;
+    }
     const EmitterSampler& emitters() const { return emitters_; }
     /// Share of a sampled emitter's light that arrives at `origin`.
     float open(const Vec3& origin, const Vec3& from, const LightSample& light) const;

@@ -38,7 +38,7 @@ struct Direct {
 
 class Solver {
   public:
-    Solver(const GatherScene& scene, const GatherHits& hits, std::span<const Rgb> lamps, const DayLight& light,
+    Solver(const GatherScene& scene, const GatherHits& hits, std::span<const ByLit> lamps, const DayLight& light,
            const GatherSettings& settings)
         : scene_(scene),
           hits_(hits),
@@ -146,11 +146,14 @@ class Solver {
             const std::vector<double> hours = clear_day(light_, rows.row(i));
             for (std::size_t k = 0; k < hours.size(); ++k) result[k] += hours[k] / double(rows.count());
         }
-        double lamps = 0.0;
-        for (std::size_t t = 0; t < scene_.texels.count(); ++t)
-            lamps += double(luminance(albedo(t) * (lamps_[t] + hits_.emission[t])));
-        for (double& lux : result)
-            lux = std::max(lux + lamps / double(std::max<std::size_t>(scene_.texels.count(), 1)), 1e-4);
+        double always = 0.0, evening = 0.0;
+        const double share = 1.0 / double(std::max<std::size_t>(scene_.texels.count(), 1));
+        for (std::size_t t = 0; t < scene_.texels.count(); ++t) {
+            always += share * double(luminance(albedo(t) * (lamps_[t].always + hits_.emission[t].always)));
+            evening += share * double(luminance(albedo(t) * (lamps_[t].evening + hits_.emission[t].evening)));
+        }
+        for (std::size_t k = 0; k < result.size(); ++k)
+            result[k] = std::max(result[k] + always + double(light_.scales[k].evening) * evening, 1e-4);
         return result;
     }
 
@@ -179,9 +182,14 @@ class Solver {
             row[i] = albedo(r) * sun[i];
             if (!direct_.suns.empty()) row[i] += albedo(r) * project_[i] * direct_.suns[r];
         }
-        row[basis.component_of(StillPart::Lamps)] = albedo(r) * (lamps_[r] + hits_.emission[r]);
-        if (r < scene_.texels.count())
-            solution_.texels[r * basis.components + basis.component_of(StillPart::Lamps)] = hits_.emission[r];
+        const std::size_t evening = basis.component_of(StillPart::Evening), lamps = basis.component_of(StillPart::Lamps);
+        const ByLit& emission = hits_.emission[r];
+        row[evening] = albedo(r) * (lamps_[r].evening + emission.evening);
+        row[lamps] = albedo(r) * (lamps_[r].always + emission.always);
+        if (r < scene_.texels.count()) {
+            solution_.texels[r * basis.components + evening] = emission.evening;
+            solution_.texels[r * basis.components + lamps] = emission.always;
+        }
         send(row, current_.data() + r * width());
     }
 
@@ -304,7 +312,7 @@ class Solver {
 
     const GatherScene& scene_;
     const GatherHits& hits_;
-    std::span<const Rgb> lamps_;
+    std::span<const ByLit> lamps_;
     const DayLight& light_;
     const GatherSettings& settings_;
     std::size_t receivers_;
@@ -316,7 +324,7 @@ class Solver {
 
 }  // namespace
 
-DaySolution solve_day(const GatherScene& scene, const GatherHits& hits, std::span<const Rgb> lamps,
+DaySolution solve_day(const GatherScene& scene, const GatherHits& hits, std::span<const ByLit> lamps,
                       const DayLight& light, const GatherSettings& settings, const StageProgress& progress) {
     return Solver(scene, hits, lamps, light, settings).solve(progress);
 }

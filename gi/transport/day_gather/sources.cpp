@@ -31,35 +31,37 @@ Rgb lamp_at(const RayScene& rays, const PlacedLight& lamp, const Place& place) {
     return cosine * rays.transmittance({origin, direction, 0.0f, length}) * facing;
 }
 
-Rgb few_lamps(const GatherScene& scene, const UsablePoints& points, std::span<const std::size_t> lamps,
-              Random& random) {
-    Rgb sum(0.0f);
+ByLit few_lamps(const GatherScene& scene, const UsablePoints& points, std::span<const std::size_t> lamps,
+                Random& random) {
+    ByLit sum;
     for (std::size_t lamp : lamps)
         for (int s = 0; s < kLampSamples; ++s)
-            sum += lamp_at(scene.rays, scene.lamps[lamp], points.any(random.next())) / float(kLampSamples);
+            sum.of(scene.lamps[lamp].lit) +=
+                lamp_at(scene.rays, scene.lamps[lamp], points.any(random.next())) / float(kLampSamples);
     return sum;
 }
 
 /// Lamps chosen by what they would give without shadows.
-Rgb many_lamps(const GatherScene& scene, const UsablePoints& points, std::span<const std::size_t> lamps,
-               std::span<const double> cumulative, Random& random) {
-    Rgb sum(0.0f);
+ByLit many_lamps(const GatherScene& scene, const UsablePoints& points, std::span<const std::size_t> lamps,
+                 std::span<const double> cumulative, Random& random) {
+    ByLit sum;
     for (int s = 0; s < kManyLampSamples; ++s) {
         const double u = (s + random.next_double()) / kManyLampSamples * cumulative.back();
         const std::size_t i =
             std::min(std::size_t(std::upper_bound(cumulative.begin(), cumulative.end(), u) - cumulative.begin()),
                      lamps.size() - 1);
         const double chance = (cumulative[i] - (i ? cumulative[i - 1] : 0.0)) / cumulative.back();
-        sum += lamp_at(scene.rays, scene.lamps[lamps[i]], points.any(random.next())) / float(chance * kManyLampSamples);
+        const PlacedLight& lamp = scene.lamps[lamps[i]];
+        sum.of(lamp.lit) += lamp_at(scene.rays, lamp, points.any(random.next())) / float(chance * kManyLampSamples);
     }
     return sum;
 }
 
 }  // namespace
 
-std::vector<Rgb> lamp_irradiance(const GatherScene& scene, const GatherHits& hits, const GatherSettings& settings,
-                                 const StageProgress& progress) {
-    std::vector<Rgb> result(hits.receivers.size(), Rgb(0.0f));
+std::vector<ByLit> lamp_irradiance(const GatherScene& scene, const GatherHits& hits, const GatherSettings& settings,
+                                   const StageProgress& progress) {
+    std::vector<ByLit> result(hits.receivers.size());
     if (scene.lamps.empty()) return result;
     for_each_parallel(result.size(), progress, [&](std::size_t r) {
         const UsablePoints points(scene, hits, r);

@@ -39,7 +39,10 @@ struct Integrator::Path {
 
 Integrator::Integrator(const RayScene& rays, const Lighting& lighting, std::span<const PlacedLight> lamps,
                        const PathTraceSettings& settings)
-    : rays_(rays), settings_(settings), materials_(rays.scene()), lights_(rays, materials_, lighting, lamps),
+    : rays_(rays),
+      settings_(settings),
+      materials_(rays.scene(), lighting.scales.evening),
+      lights_(rays, materials_, lighting, lamps),
       panes_(find_panes(rays.mesh(), materials_)),
       want_direct_(settings.layer != Layer::Indirect), want_indirect_(settings.layer != Layer::Direct) {}
 

@@ -117,7 +117,7 @@ EmitterSampler::EmitterSampler(const RayScene& rays, const Materials& materials)
     std::vector<double> powers, areas;
     for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
         const Material& material = rays.scene().materials[mesh.materials[t]];
-        if (material.unlit || luminance(material.emission) <= 0.0f || !rays.traced(t)) continue;
+        if (material.unlit || !materials.emits(mesh.materials[t]) || !rays.traced(t)) continue;
         triangles_.push_back(t);
         areas.push_back(triangle_area(mesh, t));
         powers.push_back(areas.back() * mean_emission(rays, materials, t));
@@ -145,6 +145,7 @@ LightSample EmitterSampler::sample(const Vec3& from, Random& random) const {
     const Vec3 normal = rays_.normal(triangle);
     const float cosine = -glm::dot(normal, sample.direction);
     sample.normal = cosine < 0.0f ? -normal : normal;
+    sample.lit = rays_.scene().materials[mesh.materials[triangle]].lit;
     sample.pdf = pdf(triangle, sample.distance, cosine);
     if (sample.pdf > 0.0f) sample.radiance = materials_.covered_emission(mesh, triangle, b);
     return sample;
@@ -185,7 +186,9 @@ std::optional<LightSample> LampSampler::sample(const Vec3& from, Random& random)
 
 Lights::Lights(const RayScene& rays, const Materials& materials, const Lighting& lighting,
                std::span<const PlacedLight> lamps_of_scene)
-    : sky(lighting.sky), emitters(rays, materials), lamps(lamps_of_scene) {
+    : sky(lighting.sky),
+      emitters(rays, materials),
+      lamps(lit_lamps({lamps_of_scene.begin(), lamps_of_scene.end()}, lighting)) {
     for (const Sun& sun : lighting.suns)
         if (luminance(sun.irradiance) > 0.0f) suns.emplace_back(sun);
 }

@@ -20,6 +20,7 @@ struct LightSample {
     Rgb radiance = Rgb(0);   // cd/m^2; of lamps: irradiance on a plane facing it, over the chance to be drawn
     float pdf = 0.0f;        // per solid angle; 0: a lamp, which no other strategy can find
     Vec3 normal = Vec3(0);   // of the emitting surface towards the point; zero for all others
+    Lit lit = Lit::Always;   // when an emitting surface shines
 };
 
 /// A disc of kSunRadius, sampled uniformly.

@@ -2,13 +2,14 @@
 
 namespace daylit {
 
-Materials::Materials(const Scene& scene) : scene_(scene) {
+Materials::Materials(const Scene& scene, float evening) : scene_(scene) {
     constants_.reserve(scene.materials.size());
     for (const Material& m : scene.materials) {
         Constants c;
         c.unlit = m.unlit;
         c.glass = !m.unlit && m.transmission > 0.0f;
-        c.emits = m.unlit || m.emission != Rgb(0.0f);
+        c.shining = m.lit == Lit::Evening ? evening : 1.0f;
+        c.emits = m.unlit || m.emission * c.shining != Rgb(0.0f);
         c.plain_brdf = m.base_color_texture.texture < 0 && m.metallic_roughness_texture.texture < 0;
         if (c.plain_brdf) c.brdf = surface_brdf(scene, m, {}, Rgba(1.0f));
         constants_.push_back(c);
@@ -27,7 +28,7 @@ Rgb Materials::color(const SurfacePoint& point) const {
 
 Rgb Materials::emission(const SurfacePoint& point) const {
     if (unlit(point.material)) return color(point);
-    return daylit::emission(scene_, scene_.materials[point.material], point.uvs);
+    return daylit::emission(scene_, scene_.materials[point.material], point.uvs) * constants_[point.material].shining;
 }
 
 Rgb Materials::covered_emission(const WorldMesh& mesh, std::uint32_t triangle, const Vec2& barycentric) const {
@@ -40,7 +41,7 @@ Rgb Materials::covered_emission(const WorldMesh& mesh, std::uint32_t triangle, c
         vertex_color += w[k] * mesh.colors[corner[k]];
     }
     const Material& material = scene_.materials[mesh.materials[triangle]];
-    const Rgb radiance = daylit::emission(scene_, material, uvs);
+    const Rgb radiance = daylit::emission(scene_, material, uvs) * constants_[mesh.materials[triangle]].shining;
     if (material.alpha_mode == AlphaMode::Opaque) return radiance;
     return radiance * base_color(scene_, material, uvs, vertex_color).a;
 }

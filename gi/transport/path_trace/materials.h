@@ -10,7 +10,8 @@ namespace daylit {
 
 class Materials {
   public:
-    explicit Materials(const Scene& scene);
+    /// evening   share of their light that emitters lit in the evening give
+    explicit Materials(const Scene& scene, float evening = 1.0f);
 
     bool glass(std::uint32_t material) const { return constants_[material].glass; }
     bool emits(std::uint32_t material) const { return constants_[material].emits; }
@@ -27,6 +28,7 @@ class Materials {
   private:
     struct Constants {
         bool glass = false, emits = false, unlit = false;
+        float shining = 1.0f;     // share of its emission, by its hours
         bool plain_brdf = false;  // no texture: `brdf` holds where the vertex colour is white
         glsl::Brdf brdf{};
     };
