@@ -149,8 +149,8 @@ struct Release {
 template <class Handle>
 using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
 
-RTCRay embree_ray(const Ray& ray) {
-    RTCRay r;
+/// In place, as all records of a ray: copied right after being written in pieces, they would stall the processor.
+void set_ray(RTCRay& r, const Ray& ray) {
     r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
     r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
     r.tnear = ray.t_min, r.tfar = ray.t_max;
@@ -158,7 +158,6 @@ RTCRay embree_ray(const Ray& ray) {
     r.mask = ~0u;
     r.id = 0;
     r.flags = 0;
-    return r;
 }
 
 }  // namespace
@@ -334,20 +333,27 @@ std::optional<Hit> RayScene::closest(const Ray& ray, std::uint64_t key) const {
     rtcInitIntersectContext(&query.embree);
     query.key = key;
     RTCRayHit r;
-    r.ray = embree_ray(ray);
+    set_ray(r.ray, ray);
     r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(state_->accelerator.get(), &query.embree, &r);
-    if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    const std::uint32_t triangle = state_->members[r.hit.geomID][r.hit.primID];
-    return Hit{r.ray.tfar, triangle, Vec2(r.hit.u, r.hit.v), state_->normals[triangle]};
+    std::optional<Hit> hit;
+    if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
+    Hit& met = hit.emplace();
+    met.triangle = state_->members[r.hit.geomID][r.hit.primID];
+    met.distance = r.ray.tfar;
+    met.barycentric.x = r.hit.u, met.barycentric.y = r.hit.v;
+    const Vec3& normal = state_->normals[met.triangle];
+    met.normal.x = normal.x, met.normal.y = normal.y, met.normal.z = normal.z;
+    return hit;
 }
 
 float RayScene::transmittance(const Ray& ray) const {
     if (state_->log) state_->log->push_back(ray);
     QueryContext query;
     rtcInitIntersectContext(&query.embree);
-    RTCRay r = embree_ray(ray);
+    RTCRay r;
+    set_ray(r, ray);
     rtcOccluded1(state_->accelerator.get(), &query.embree, &r);
     return r.tfar < 0.0f ? 0.0f : query.transmittance;
 }
@@ -367,22 +373,6 @@ SurfacePoint RayScene::surface_point(const Ray& ray, const Hit& hit) const {
     point.geometric_normal = from_behind ? -hit.normal : hit.normal;
     point.shading_normal = from_behind ? -normal : normal;
     return point;
-}
-
-Vec3 RayScene::offset_origin(const Vec3& position, const Vec3& geometric_normal, const Vec3& direction) {
-    // Waechter and Binder 2019, "A fast and robust method for avoiding self-intersection": 256 units in the last
-    // place, and an absolute step near the origin, where those would vanish.
-    constexpr float kNearOrigin = 1.0f / 32.0f, kAbsoluteStep = 1.0f / 65536.0f, kUnits = 256.0f;
-    const Vec3 n = glm::dot(geometric_normal, direction) < 0.0f ? -geometric_normal : geometric_normal;
-    Vec3 moved;
-    for (int axis = 0; axis < 3; ++axis) {
-        const float p = position[axis];
-        const int units = int(kUnits * n[axis]);
-        moved[axis] = std::abs(p) < kNearOrigin
-                          ? p + kAbsoluteStep * n[axis]
-                          : std::bit_cast<float>(std::bit_cast<std::int32_t>(p) + (p < 0.0f ? -units : units));
-    }
-    return moved;
 }
 
 }  // namespace daylit

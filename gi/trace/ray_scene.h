@@ -1,5 +1,7 @@
 #pragma once
 // The only door to Embree: closest hits and transmittance in a WorldMesh. No other folder includes Embree.
+#include <bit>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -64,7 +66,20 @@ class RayScene {
 
     /// Start of a ray that leaves a surface point: moved off the plane along the geometric normal (on the side of
     /// `direction`) by an amount that scales with the coordinates (Waechter and Binder 2019).
-    static Vec3 offset_origin(const Vec3& position, const Vec3& geometric_normal, const Vec3& direction);
+    static Vec3 offset_origin(const Vec3& position, const Vec3& geometric_normal, const Vec3& direction) {
+        // 256 units in the last place, and an absolute step near the origin, where those would vanish.
+        constexpr float kNearOrigin = 1.0f / 32.0f, kAbsoluteStep = 1.0f / 65536.0f, kUnits = 256.0f;
+        const float side = glm::dot(geometric_normal, direction) < 0.0f ? -1.0f : 1.0f;
+        Vec3 moved;
+        for (int axis = 0; axis < 3; ++axis) {
+            const float p = position[axis], n = side * geometric_normal[axis];
+            const int units = int(kUnits * n);
+            moved[axis] = std::abs(p) < kNearOrigin
+                              ? p + kAbsoluteStep * n
+                              : std::bit_cast<float>(std::bit_cast<std::int32_t>(p) + (p < 0.0f ? -units : units));
+        }
+        return moved;
+    }
 
     /// Appends every ray of closest() and transmittance() to `log` from now on; null stops it. For benchmarks: while
     /// rays are logged, only one thread may trace.

@@ -24,6 +24,10 @@ class AliasTable {
         if (std::uint32_t(bits) < slot.keep) return {i, slot.probability};
         return {slot.other, slot.other_probability};
     }
+    /// Asks for the slot that sample(bits) will look into: large tables lie far away in memory.
+    void prefetch(std::uint64_t bits) const {
+        __builtin_prefetch(slots_.data() + (((bits >> 32) * slots_.size()) >> 32));
+    }
     /// Chance of index i; 0 when empty.
     float probability(std::uint32_t i) const { return empty() ? 0.0f : slots_[i].probability; }
 

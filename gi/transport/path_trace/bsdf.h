@@ -1,8 +1,8 @@
 #pragma once
 // How light scatters at a point of a path: the shared BRDF (shaders/shared/brdf.h) and smooth glass.
+#include <cmath>
 #include <optional>
 
-#include "engine/base/random.h"
 #include "gi/transport/path_trace/sampling.h"
 #include "shaders/shared/brdf.h"
 
@@ -13,9 +13,23 @@ namespace daylit {
 /// leans; the cosine is that of the shading normal.
 class Reflection {
   public:
-    Reflection(const glsl::Brdf& brdf, const Vec3& geometric_normal, const Vec3& shading_normal, const Vec3& view);
+    Reflection(const glsl::Brdf& brdf, const Vec3& geometric_normal, const Vec3& shading_normal, const Vec3& view)
+        : brdf_(brdf),
+          geometric_normal_(geometric_normal),
+          shading_normal_(shading_normal),
+          mirror_(glm::reflect(-view, shading_normal)),
+          lobe_chance_(lobe_share(brdf)) {}
     /// A white Lambert surface of albedo pi: what it "reflects" is its irradiance.
-    static Reflection irradiance(const Vec3& geometric_normal, const Vec3& shading_normal);
+    static Reflection irradiance(const Vec3& geometric_normal, const Vec3& shading_normal) {
+        return Reflection({.diffuse = Rgb(kPiF), .specular = Rgb(0.0f), .exponent = 0.0f}, geometric_normal,
+                          shading_normal, shading_normal);
+    }
+
+    /// False when nothing arrives from directions within the angle of this sine around `centre`.
+    bool may_receive(const Vec3& centre, float sine) const {
+        return lobe_chance_ >= 0.0f && glm::dot(geometric_normal_, centre) > -sine &&
+               glm::dot(shading_normal_, centre) > -sine;
+    }
 
     /// f times the cosine, 1/sr, and the density per solid angle with which sample() draws this direction.
     struct Value {
@@ -29,14 +43,42 @@ class Reflection {
         Rgb weight;  // f cos / pdf
         float pdf;
     };
-    /// Nothing when the surface is black or the draw falls below the surface.
-    std::optional<Sample> sample(Random& random) const;
+    /// u   uniform in [0,1)^2. Nothing when the surface is black or the draw falls below the surface.
+    std::optional<Sample> sample(Vec2 u) const;
 
   private:
+    /// Share of the Phong lobe in what is reflected; < 0: black.
+    static float lobe_share(const glsl::Brdf& brdf) {
+        const float diffuse = luminance(brdf.diffuse), specular = luminance(brdf.specular);
+        return diffuse + specular > 0.0f ? specular / (diffuse + specular) : -1.0f;
+    }
+
     glsl::Brdf brdf_;
     Vec3 geometric_normal_, shading_normal_, mirror_;
     float lobe_chance_;  // of drawing from the Phong lobe; < 0: black
 };
+
+// These run several times a hit: inlined, they spare as much time again as they take.
+inline Reflection::Value Reflection::evaluate_with_pdf(const Vec3& light) const {
+    const float cosine = glm::dot(shading_normal_, light);
+    if (lobe_chance_ < 0.0f || cosine <= 0.0f || glm::dot(geometric_normal_, light) <= 0.0f) return {};
+    if (lobe_chance_ == 0.0f) return {brdf_.diffuse * (cosine / kPiF), cosine / kPiF};
+    // As evaluate_brdf() of shaders/shared/brdf.h, but the one power serves the value and the density.
+    const float cos_lobe = glm::dot(mirror_, light);
+    const float lobe = cos_lobe > 0.0f ? std::pow(cos_lobe, brdf_.exponent) / (2.0f * kPiF) : 0.0f;
+    return {(brdf_.diffuse / kPiF + brdf_.specular * ((brdf_.exponent + 2.0f) * lobe)) * cosine,
+            glm::mix(pdf_cosine_hemisphere(cosine), (brdf_.exponent + 1.0f) * lobe, lobe_chance_)};
+}
+
+inline std::optional<Reflection::Sample> Reflection::sample(Vec2 u) const {
+    if (lobe_chance_ < 0.0f) return std::nullopt;
+    const bool lobe = choose(u.x, lobe_chance_);
+    const Vec3 direction = glm::normalize(lobe ? Frame(mirror_).to_world(sample_phong_lobe(brdf_.exponent, u.x, u.y))
+                                               : Frame(shading_normal_).to_world(sample_cosine_hemisphere(u.x, u.y)));
+    const Value value = evaluate_with_pdf(direction);
+    if (value.f_cos == Rgb(0.0f) || !(value.pdf > 0.0f)) return std::nullopt;
+    return Sample{direction, value.f_cos / value.pdf, value.pdf};
+}
 
 /// Share of unpolarised light reflected at the smooth boundary of a dielectric (Fresnel).
 /// cosine   of the incoming direction, 0 to 1

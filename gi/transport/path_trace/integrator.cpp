@@ -13,16 +13,24 @@ constexpr int kBouncesBeforeRoulette = 3;
 constexpr float kSurvivalAtMost = 0.95f;
 // Coverage layers and culled faces that a camera ray may cross; more are seen as nothing.
 constexpr int kCameraCrossings = 1000;
+const float kSunSine = float(std::sin(kSunRadius));
 
 float largest(const Rgb& c) {
     return std::max(c.r, std::max(c.g, c.b));
+}
+
+/// What a sample's radiance (a lamp's irradiance) counts for, were nothing between.
+inline Rgb weighted_response(const Reflection& reflection, const LightSample& sample) {
+    const auto [value, pdf] = reflection.evaluate_with_pdf(sample.direction);
+    if (!(sample.pdf > 0.0f)) return value;
+    return value * (power_heuristic(sample.pdf, pdf) / sample.pdf);
 }
 
 }  // namespace
 
 /// A path under way. `seen`: all so far is what the camera sees straight or refracted, or nothing.
 struct Integrator::Path {
-    Random& random;
+    PathRandom& random;
     Rgb direct = Rgb(0.0f), indirect = Rgb(0.0f);
     Rgb throughput = Rgb(1.0f);
     float roulette_scale = 1.0f;  // of throughput at the start
@@ -31,6 +39,7 @@ struct Integrator::Path {
     int segments = 0;             // since the first surface; glass does not count
     int glass_events = 0;
     float pdf = 0.0f;             // of the last direction, when not specular
+    std::uint64_t sky_bits = 0;   // what plan_sky() drew
     std::uint32_t rays = 0;
 
     /// Light straight from the eye's first surface, or from the sun to it, is direct; what else there is, indirect.
@@ -46,9 +55,10 @@ Integrator::Integrator(const RayScene& rays, const Lighting& lighting, std::span
       panes_(find_panes(rays.mesh(), materials_)),
       want_direct_(settings.layer != Layer::Indirect), want_indirect_(settings.layer != Layer::Direct) {}
 
-Integrator::Sample Integrator::camera_sample(const ViewRay& view_ray, Random& random) const {
+Integrator::Sample Integrator::camera_sample(const ViewRay& view_ray, PathRandom& random) const {
     const Ray ray{view_ray.origin, view_ray.direction};
     Path path{.random = random};
+    plan_sky(path);
     const std::optional<FoundSurface> found = first_surface(ray, random, path.rays);
     switch (settings_.layer) {
         case Layer::Depth: return {Rgb(found ? found->travelled + found->hit.distance : 0.0f), path.rays};
@@ -63,31 +73,34 @@ Integrator::Sample Integrator::camera_sample(const ViewRay& view_ray, Random& ra
             Ray onward;
             if (scatter(path, onward, point.position, point.geometric_normal,
                         Reflection::irradiance(point.geometric_normal, point.shading_normal)))
-                trace(path, onward, std::nullopt);
+                trace(path, onward);
             return {path.direct + path.indirect, path.rays};
         }
         default: break;
     }
-    if (found)
-        trace(path, found->ray, found);
-    else
+    if (found) {
+        Ray onward = found->ray;
+        if (meet(path, onward, found->hit)) trace(path, onward);
+    } else {
         add_background(path, ray.direction);
+    }
     Rgb value(0.0f);
     if (want_direct_) value += path.direct;
     if (want_indirect_) value += path.indirect;
     return {value, path.rays};
 }
 
-Integrator::Sample Integrator::irradiance_sample(const SurfaceSample& point, Random& random) const {
+Integrator::Sample Integrator::irradiance_sample(const SurfaceSample& point, PathRandom& random) const {
     Path path{.random = random, .roulette_scale = kPiF};
+    plan_sky(path);
     Ray onward;
     if (scatter(path, onward, point.position, point.normal, Reflection::irradiance(point.normal, point.normal)))
-        trace(path, onward, std::nullopt);
+        trace(path, onward);
     return {want_direct_ ? path.direct + path.indirect : path.indirect, path.rays};
 }
 
 /// The surface that the camera sees: faces that it would see from behind are passed unless they are double-sided.
-std::optional<Integrator::FoundSurface> Integrator::first_surface(const Ray& camera_ray, Random& random,
+std::optional<Integrator::FoundSurface> Integrator::first_surface(const Ray& camera_ray, PathRandom& random,
                                                                   std::uint32_t& count) const {
     FoundSurface found{.hit = {}, .ray = camera_ray};
     for (int crossing = 0; crossing < kCameraCrossings; ++crossing) {
@@ -110,35 +123,39 @@ Rgb Integrator::surface_layer(const SurfacePoint& point) const {
     return brdf.diffuse + brdf.specular;
 }
 
-/// Follows the path to its end. `found`: the surface that `ray` hits, when it is known.
-void Integrator::trace(Path& path, Ray ray, std::optional<FoundSurface> found) const {
+/// Follows the path to its end.
+void Integrator::trace(Path& path, Ray& ray) const {
     for (;;) {
-        std::optional<Hit> hit;
-        if (found) {
-            hit = found->hit;
-            found.reset();
-        } else {
-            ++path.rays;
-            hit = rays_.closest(ray, path.random.bits());
-        }
+        ++path.rays;
+        const std::optional<Hit> hit = rays_.closest(ray, path.random.bits());
         if (!hit) return add_background(path, ray.direction);
-
-        const SurfacePoint point = rays_.surface_point(ray, *hit);
-        if (materials_.emits(point.material)) add_emission(path, ray, *hit, point);
-        if (materials_.glass(point.material)) {
-            pass_glass(path, ray, *hit, point);
-            if (!want_indirect_ && !path.seen) return;
-            if (path.glass_events > kGlassEventsBeforeRoulette && !survives(path)) return;
-            continue;
-        }
-        if (materials_.unlit(point.material)) return;
-        if (path.segments > 0 && path.segments >= settings_.max_bounces) return;
-
-        const Reflection reflection(materials_.brdf(point), point.geometric_normal, point.shading_normal,
-                                    -ray.direction);
-        if (!scatter(path, ray, point.position, point.geometric_normal, reflection)) return;
-        if (path.segments > kBouncesBeforeRoulette && !survives(path)) return;
+        if (!meet(path, ray, *hit)) return;
     }
+}
+
+/// Light from and at the surface that `ray` hits, and the next ray. False: the path ends here.
+bool Integrator::meet(Path& path, Ray& ray, const Hit& hit) const {
+    const SurfacePoint point = rays_.surface_point(ray, hit);
+    if (materials_.emits(point.material)) add_emission(path, ray, hit, point);
+    if (materials_.glass(point.material)) {
+        pass_glass(path, ray, hit, point);
+        if (!want_indirect_ && !path.seen) return false;
+        return path.glass_events <= kGlassEventsBeforeRoulette || survives(path);
+    }
+    if (materials_.unlit(point.material)) return false;
+    if (path.segments > 0 && path.segments >= settings_.max_bounces) return false;
+
+    const Reflection reflection(materials_.brdf(point), point.geometric_normal, point.shading_normal, -ray.direction);
+    if (!scatter(path, ray, point.position, point.geometric_normal, reflection)) return false;
+    return path.segments <= kBouncesBeforeRoulette || survives(path);
+}
+
+/// Where in the sky the next surface will look, drawn one ray ahead: by then its part of the table has arrived from
+/// memory.
+void Integrator::plan_sky(Path& path) const {
+    if (!want_indirect_ || !lights_.sky.samplable()) return;
+    path.sky_bits = path.random.bits();
+    lights_.sky.prefetch(path.sky_bits);
 }
 
 /// What a ray finds that leaves the scene: the sky, and a sun's disc.
@@ -187,7 +204,8 @@ void Integrator::pass_glass(Path& path, Ray& ray, const Hit& hit, const SurfaceP
     }
     ++path.glass_events;
     path.specular = true;
-    ray = {RayScene::offset_origin(point.position, point.geometric_normal, bounce.direction), bounce.direction};
+    ray.origin = RayScene::offset_origin(point.position, point.geometric_normal, bounce.direction);
+    ray.direction = bounce.direction;
 }
 
 /// Adds the light that arrives at a surface by light sampling, and draws the next ray. False: the path ends here.
@@ -199,7 +217,8 @@ bool Integrator::scatter(Path& path, Ray& ray, const Vec3& position, const Vec3&
         add_straight_light(path, position, geometric_normal, reflection);
     if (want_indirect_ && !ends) add_area_light(path, position, geometric_normal, reflection);
 
-    const std::optional<Reflection::Sample> next = reflection.sample(path.random);
+    const std::optional<Reflection::Sample> next =
+        reflection.sample(first ? path.random.pair(Net::Bounce) : path.random.pair());
     if (!next) return false;
     // The next ray of direct light, or of a path that ends here, can only bring the sun.
     const bool only_sun = !want_indirect_ || ends;
@@ -208,8 +227,12 @@ bool Integrator::scatter(Path& path, Ray& ray, const Vec3& position, const Vec3&
     path.pdf = next->pdf;
     path.specular = false;
     ++path.segments;
-    ray = {RayScene::offset_origin(position, geometric_normal, next->direction), next->direction};
-    if (!only_sun) return true;
+    ray.origin = RayScene::offset_origin(position, geometric_normal, next->direction);
+    ray.direction = next->direction;
+    if (!only_sun) {
+        plan_sky(path);
+        return true;
+    }
     ++path.rays;
     const float through = rays_.transmittance(ray);
     if (through > 0.0f) {
@@ -223,25 +246,26 @@ bool Integrator::scatter(Path& path, Ray& ray, const Vec3& position, const Vec3&
 /// Suns and lamps, one shadow ray a sun and one for all lamps.
 void Integrator::add_straight_light(Path& path, const Vec3& position, const Vec3& geometric_normal,
                                     const Reflection& reflection) const {
-    const bool direct = path.segments == 0 && path.seen;
+    const bool first = path.segments == 0, direct = first && path.seen;
     const auto add = [&](const LightSample& sample) {
         const Rgb response = weighted_response(reflection, sample);
         if (response != Rgb(0.0f))
             path.add(response * sample.radiance * visibility(path, position, geometric_normal, sample), direct);
     };
     for (const SunDisc& sun : lights_.suns) {
-        const float u = path.random.next(), v = path.random.next();
-        add(sun.sample(u, v));
+        if (!reflection.may_receive(sun.direction(), kSunSine)) continue;
+        add(sun.sample(first && &sun == lights_.suns.data() ? path.random.pair(Net::Sun) : path.random.pair()));
     }
     if (lights_.lamps.empty()) return;
-    if (const std::optional<LightSample> sample = lights_.lamps.sample(position, path.random)) add(*sample);
+    const float u = first ? path.random.pair(Net::Lamp).x : path.random.next();
+    if (const std::optional<LightSample> sample = lights_.lamps.sample(position, u)) add(*sample);
 }
 
 /// Sky and emissive surfaces, one shadow ray each.
 void Integrator::add_area_light(Path& path, const Vec3& position, const Vec3& geometric_normal,
                                 const Reflection& reflection) const {
     if (lights_.sky.samplable()) {
-        const EnvironmentSampler::Draw draw = lights_.sky.sample(path.random);
+        const EnvironmentSampler::Draw draw = lights_.sky.sample(path.sky_bits, path.random.pair());
         const Rgb response = weighted_response(reflection, draw.light);
         if (response != Rgb(0.0f)) {
             const float through = visibility(path, position, geometric_normal, draw.light);
@@ -249,19 +273,13 @@ void Integrator::add_area_light(Path& path, const Vec3& position, const Vec3& ge
         }
     }
     if (!lights_.emitters.empty()) {
-        const LightSample sample = lights_.emitters.sample(position, path.random);
+        const Vec2 u = path.segments == 0 ? path.random.pair(Net::Emitter) : path.random.pair();
+        const LightSample sample = lights_.emitters.sample(position, path.random.bits(), u);
         if (sample.radiance == Rgb(0.0f)) return;
         const Rgb response = weighted_response(reflection, sample);
         if (response != Rgb(0.0f))
             path.add(response * sample.radiance * visibility(path, position, geometric_normal, sample), false);
     }
-}
-
-/// What a sample's radiance (a lamp's irradiance) counts for, were nothing between.
-Rgb Integrator::weighted_response(const Reflection& reflection, const LightSample& sample) const {
-    const auto [value, pdf] = reflection.evaluate_with_pdf(sample.direction);
-    if (!(sample.pdf > 0.0f)) return value;
-    return value * (power_heuristic(sample.pdf, pdf) / sample.pdf);
 }
 
 float Integrator::visibility(Path& path, const Vec3& position, const Vec3& geometric_normal,

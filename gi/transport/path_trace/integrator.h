@@ -5,6 +5,7 @@
 #include "gi/transport/path_trace/bsdf.h"
 #include "gi/transport/path_trace/lights.h"
 #include "gi/transport/path_trace/materials.h"
+#include "gi/transport/path_trace/path_random.h"
 #include "gi/transport/path_trace/path_trace.h"
 
 namespace daylit {
@@ -20,9 +21,9 @@ class Integrator {
         std::uint32_t rays = 0;
     };
     /// One sample of settings.layer along a camera ray.
-    Sample camera_sample(const ViewRay& ray, Random& random) const;
+    Sample camera_sample(const ViewRay& ray, PathRandom& random) const;
     /// One sample of the irradiance at a point, lux: Layer::Final all light, else only the indirect part.
-    Sample irradiance_sample(const SurfaceSample& point, Random& random) const;
+    Sample irradiance_sample(const SurfaceSample& point, PathRandom& random) const;
 
   private:
     struct Path;
@@ -32,9 +33,11 @@ class Integrator {
         float travelled = 0.0f;
     };
 
-    std::optional<FoundSurface> first_surface(const Ray& camera_ray, Random& random, std::uint32_t& count) const;
+    std::optional<FoundSurface> first_surface(const Ray& camera_ray, PathRandom& random, std::uint32_t& count) const;
     Rgb surface_layer(const SurfacePoint& point) const;
-    void trace(Path& path, Ray ray, std::optional<FoundSurface> found) const;
+    void trace(Path& path, Ray& ray) const;
+    bool meet(Path& path, Ray& ray, const Hit& hit) const;
+    void plan_sky(Path& path) const;
     void add_background(Path& path, const Vec3& direction) const;
     void add_emission(Path& path, const Ray& ray, const Hit& hit, const SurfacePoint& point) const;
     void pass_glass(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point) const;
@@ -44,7 +47,6 @@ class Integrator {
                             const Reflection& reflection) const;
     void add_area_light(Path& path, const Vec3& position, const Vec3& geometric_normal,
                         const Reflection& reflection) const;
-    Rgb weighted_response(const Reflection& reflection, const LightSample& sample) const;
     float visibility(Path& path, const Vec3& position, const Vec3& geometric_normal, const LightSample& sample) const;
     bool sun_in(const Vec3& direction) const;
     bool survives(Path& path) const;

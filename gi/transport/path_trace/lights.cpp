@@ -5,9 +5,6 @@
 namespace daylit {
 namespace {
 
-// 1 - cos(kSunRadius), by the half angle so that nothing cancels.
-const double kSunCapHeight = 2.0 * std::pow(std::sin(0.5 * kSunRadius), 2.0);
-
 /// Integral of the bilinear map's luminance over each texel's square, in units of one texel's area: along each axis
 /// the tent of a texel puts 6/8 inside its own square and 1/8 in each neighbour's.
 std::vector<double> bilinear_texel_means(const Image& map) {
@@ -49,67 +46,39 @@ double mean_emission(const RayScene& rays, const Materials& materials, std::uint
 }  // namespace
 
 SunDisc::SunDisc(const Sun& sun)
-    : frame_(sun.direction), radiance_(disc_radiance(sun)), pdf_(pdf_cap(float(kSunCapHeight))) {}
-
-LightSample SunDisc::sample(float u, float v) const {
-    return {.direction = frame_.to_world(sample_cap(float(kSunCapHeight), u, v)), .radiance = radiance_, .pdf = pdf_};
-}
-
-bool SunDisc::contains(const Vec3& direction) const {
-    // By the chord, |d - s|^2 = 2 (1 - cos): the dot product of two floats would blur the disc's rim.
-    const Vec3 chord = direction - frame_.z;
-    return glm::dot(chord, chord) <= 2.0f * float(kSunCapHeight);
-}
+    : frame_(sun.direction), radiance_(disc_radiance(sun)), pdf_(pdf_cap(kSunCapHeight)) {}
 
 EnvironmentSampler::EnvironmentSampler(const Environment& sky)
-    : map_(sky.map), black_(sky.map.empty() || sky.black()) {
+    : map_(sky.map), black_(sky.map.empty() || sky.black()),
+      texel_at_horizon_(black_ ? 0.0f : float(2.0 * kPi / sky.map.width * kPi / sky.map.height)) {
     if (black_ || sky.constant()) return;
     const auto w = std::size_t(map_.width), h = std::size_t(map_.height);
     std::vector<double> weights = bilinear_texel_means(map_);
-    row_edge_cos_.push_back(1.0f);
     for (std::size_t y = 0; y < h; ++y) {
-        const double top = std::cos(kPi * double(y) / double(h)), bottom = std::cos(kPi * double(y + 1) / double(h));
-        const double solid_angle = 2.0 * kPi / double(w) * (top - bottom);
-        row_edge_cos_.push_back(float(bottom));
-        row_solid_angle_.push_back(float(solid_angle));
-        for (std::size_t x = 0; x < w; ++x) weights[y * w + x] *= solid_angle;
+        const double sine = std::sin(kPi * (double(y) + 0.5) / double(h));
+        for (std::size_t x = 0; x < w; ++x) weights[y * w + x] *= sine;
     }
     table_ = AliasTable(weights);
 }
 
-EnvironmentSampler::Draw EnvironmentSampler::sample(Random& random) const {
-    const auto [cell, chance] = table_.sample(random.bits());
-    const std::uint32_t w = std::uint32_t(map_.width), x = cell % w, y = cell / w;
-    const float cos_polar = glm::mix(row_edge_cos_[y], row_edge_cos_[y + 1], random.next());
-    const float sin_polar = std::sqrt(std::max(1.0f - cos_polar * cos_polar, 0.0f));
-    const float u = (float(x) + random.next()) / float(w);
-    const float bearing = (u - 0.5f) * 2.0f * kPiF;
-    Draw draw;
-    draw.light.direction = Vec3(sin_polar * std::sin(bearing), cos_polar, -sin_polar * std::cos(bearing));
-    draw.light.pdf = chance / row_solid_angle_[y];
-    draw.uv = Vec2(u, std::acos(cos_polar) / kPiF);
-    return draw;
-}
-
 EnvironmentSampler::Seen EnvironmentSampler::look(const Vec3& direction) const {
     if (map_.width == 1 && map_.height == 1) return {map_.pixels[0], 0.0f};
-    const Vec2 uv(0.5f + std::atan2(direction.x, -direction.z) / (2.0f * kPiF),
-                  std::acos(std::clamp(direction.y, -1.0f, 1.0f)) / kPiF);
-    if (!samplable()) return {radiance(uv), 0.0f};
+    const float sine = std::sqrt(direction.x * direction.x + direction.z * direction.z);
+    const Vec2 uv(0.5f + turns_of(direction.x, -direction.z), 2.0f * turns_of(sine, direction.y));
+    if (!samplable() || !(sine > 0.0f)) return {radiance(uv), 0.0f};
     const int x = std::clamp(int(uv.x * float(map_.width)), 0, map_.width - 1);
     const int y = std::clamp(int(uv.y * float(map_.height)), 0, map_.height - 1);
-    return {radiance(uv), table_.probability(std::uint32_t(y * map_.width + x)) / row_solid_angle_[std::size_t(y)]};
+    return {radiance(uv), table_.probability(std::uint32_t(y * map_.width + x)) / (texel_at_horizon_ * sine)};
 }
 
 Rgb EnvironmentSampler::radiance(const Vec2& uv) const {
-    const float x = uv.x * float(map_.width) - 0.5f, y = uv.y * float(map_.height) - 0.5f;
-    const float left = std::floor(x), top = std::floor(y);
-    int x0 = int(left), x1 = x0 + 1;
-    if (x0 < 0) x0 += map_.width;
-    if (x1 >= map_.width) x1 -= map_.width;
-    const int y0 = std::max(int(top), 0), y1 = std::min(int(top) + 1, map_.height - 1);
-    return glm::mix(glm::mix(map_.at(x0, y0), map_.at(x1, y0), x - left),
-                    glm::mix(map_.at(x0, y1), map_.at(x1, y1), x - left), y - top);
+    // Counted from a texel further left and up, so that both are positive and truncation is floor().
+    const float x = uv.x * float(map_.width) + 0.5f, y = uv.y * float(map_.height) + 0.5f;
+    const int right = int(x), below = int(y);
+    const float fx = x - float(right), fy = y - float(below);
+    const int x0 = right > 0 ? right - 1 : map_.width - 1, x1 = right < map_.width ? right : 0;
+    const int y0 = std::max(below - 1, 0), y1 = std::min(below, map_.height - 1);
+    return glm::mix(glm::mix(map_.at(x0, y0), map_.at(x1, y0), fx), glm::mix(map_.at(x0, y1), map_.at(x1, y1), fx), fy);
 }
 
 EmitterSampler::EmitterSampler(const RayScene& rays, const Materials& materials) : rays_(rays), materials_(materials) {
@@ -118,36 +87,38 @@ EmitterSampler::EmitterSampler(const RayScene& rays, const Materials& materials)
     for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
         const Material& material = rays.scene().materials[mesh.materials[t]];
         if (material.unlit || !materials.emits(mesh.materials[t]) || !rays.traced(t)) continue;
-        triangles_.push_back(t);
+        const std::uint32_t* corner = &mesh.indices[3 * std::size_t(t)];
+        const Vec3& origin = mesh.positions[corner[0]];
+        const bool uniform = material.alpha_mode == AlphaMode::Opaque && material.emission_texture.texture < 0;
+        emitters_.push_back({.corner = origin, .edge_u = mesh.positions[corner[1]] - origin,
+                             .edge_v = mesh.positions[corner[2]] - origin, .normal = rays.normal(t), .pdf_area = 0.0f,
+                             .triangle = t, .lit = material.lit, .uniform = uniform,
+                             .radiance = materials.covered_emission(mesh, t, Vec2(1.0f / 3.0f))});
         areas.push_back(triangle_area(mesh, t));
         powers.push_back(areas.back() * mean_emission(rays, materials, t));
     }
     table_ = AliasTable(powers);
     if (table_.empty()) return;
     pdf_area_.resize(mesh.triangle_count(), 0.0f);
-    for (std::uint32_t i = 0; i < triangles_.size(); ++i)
-        pdf_area_[triangles_[i]] = float(table_.probability(i) / areas[i]);
+    for (std::uint32_t i = 0; i < emitters_.size(); ++i)
+        emitters_[i].pdf_area = pdf_area_[emitters_[i].triangle] = float(table_.probability(i) / areas[i]);
 }
 
-LightSample EmitterSampler::sample(const Vec3& from, Random& random) const {
-    const std::uint32_t triangle = triangles_[table_.sample(random.bits()).index];
-    const float u = random.next(), v = random.next();
-    const Vec2 b = sample_triangle(u, v);
-    const WorldMesh& mesh = rays_.mesh();
-    const std::uint32_t* corner = &mesh.indices[3 * std::size_t(triangle)];
-    const Vec3 point = mesh.positions[corner[0]] * (1.0f - b.x - b.y) + mesh.positions[corner[1]] * b.x +
-                       mesh.positions[corner[2]] * b.y;
+LightSample EmitterSampler::sample(const Vec3& from, std::uint64_t bits, Vec2 u) const {
+    const Emitter& emitter = emitters_[table_.sample(bits).index];
+    const Vec2 b = sample_triangle(u.x, u.y);
     LightSample sample;
-    const Vec3 way = point - from;
+    const Vec3 way = emitter.corner + emitter.edge_u * b.x + emitter.edge_v * b.y - from;
     sample.distance = glm::length(way);
     if (!(sample.distance > 0.0f)) return sample;
     sample.direction = way / sample.distance;
-    const Vec3 normal = rays_.normal(triangle);
-    const float cosine = -glm::dot(normal, sample.direction);
-    sample.normal = cosine < 0.0f ? -normal : normal;
-    sample.lit = rays_.scene().materials[mesh.materials[triangle]].lit;
-    sample.pdf = pdf(triangle, sample.distance, cosine);
-    if (sample.pdf > 0.0f) sample.radiance = materials_.covered_emission(mesh, triangle, b);
+    const float cosine = -glm::dot(emitter.normal, sample.direction);
+    sample.normal = cosine < 0.0f ? -emitter.normal : emitter.normal;
+    sample.lit = emitter.lit;
+    if (cosine != 0.0f) sample.pdf = emitter.pdf_area * sample.distance * sample.distance / std::abs(cosine);
+    if (sample.pdf > 0.0f)
+        sample.radiance = emitter.uniform ? emitter.radiance
+                                          : materials_.covered_emission(rays_.mesh(), emitter.triangle, b);
     return sample;
 }
 
@@ -161,8 +132,8 @@ LampSampler::LampSampler(std::span<const PlacedLight> lamps) {
         if (lamp.kind != LightKind::Directional && luminance(lamp.intensity) > 0.0f) lamps_.push_back(lamp);
 }
 
-std::optional<LightSample> LampSampler::sample(const Vec3& from, Random& random) const {
-    // One pass of weighted reservoir sampling (Chao 1982).
+std::optional<LightSample> LampSampler::sample(const Vec3& from, float u) const {
+    // One pass of weighted reservoir sampling (Chao 1982) that uses one number up bit by bit.
     const PlacedLight* chosen = nullptr;
     Rgb chosen_irradiance(0.0f);
     float chosen_weight = 0.0f, sum = 0.0f;
@@ -171,7 +142,7 @@ std::optional<LightSample> LampSampler::sample(const Vec3& from, Random& random)
         const float weight = luminance(irradiance);
         if (!(weight > 0.0f) || !std::isfinite(weight)) continue;
         sum += weight;
-        if (lamps_.size() == 1 || random.next() * sum < weight) {
+        if (choose(u, weight / sum)) {
             chosen = &lamp;
             chosen_irradiance = irradiance;
             chosen_weight = weight;

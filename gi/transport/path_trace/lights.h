@@ -1,5 +1,6 @@
 #pragma once
 // All that sends light into a scene, ready to be sampled: suns, environment, emissive triangles and punctual lamps.
+#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
@@ -15,7 +16,7 @@ namespace daylit {
 
 /// Light that may reach a point from one direction.
 struct LightSample {
-    Vec3 direction;         // unit
+    Vec3 direction;          // unit
     float distance = 1e30f;  // of the emitting point, metres
     Rgb radiance = Rgb(0);   // cd/m^2; of lamps: irradiance on a plane facing it, over the chance to be drawn
     float pdf = 0.0f;        // per solid angle; 0: a lamp, which no other strategy can find
@@ -23,12 +24,22 @@ struct LightSample {
     Lit lit = Lit::Always;   // when an emitting surface shines
 };
 
+/// 1 - cos(kSunRadius), by the half angle so that nothing cancels.
+inline const float kSunCapHeight = float(2.0 * std::pow(std::sin(0.5 * kSunRadius), 2.0));
+
 /// A disc of kSunRadius, sampled uniformly.
 class SunDisc {
   public:
     explicit SunDisc(const Sun& sun);
-    LightSample sample(float u, float v) const;
-    bool contains(const Vec3& direction) const;
+    LightSample sample(Vec2 u) const {
+        return {.direction = frame_.to_world(sample_cap(kSunCapHeight, u.x, u.y)), .radiance = radiance_, .pdf = pdf_};
+    }
+    bool contains(const Vec3& direction) const {
+        // By the chord, |d - s|^2 = 2 (1 - cos): the dot product of two floats would blur the disc's rim.
+        const Vec3 chord = direction - frame_.z;
+        return glm::dot(chord, chord) <= 2.0f * kSunCapHeight;
+    }
+    const Vec3& direction() const { return frame_.z; }  // of its centre
     const Rgb& radiance() const { return radiance_; }
     float pdf() const { return pdf_; }
 
@@ -58,32 +69,64 @@ class EnvironmentSampler {
         LightSample light;
         Vec2 uv;
     };
-    Draw sample(Random& random) const;
+    /// bits   64 uniform random bits; `u` uniform in [0,1)^2
+    Draw sample(std::uint64_t bits, Vec2 u) const;
+    /// To be called some time before sample(bits, ...).
+    void prefetch(std::uint64_t bits) const { table_.prefetch(bits); }
     Rgb radiance(const Vec2& uv) const;
 
   private:
     const Image& map_;
     bool black_;
-    AliasTable table_;                  // over texels
-    std::vector<float> row_edge_cos_;   // cosine of the polar angle between the rows; one more than there are rows
-    std::vector<float> row_solid_angle_;  // of a texel in each row
+    /// Solid angle of one texel, were it as large as those at the horizon; others: times the sine of the polar angle.
+    float texel_at_horizon_;
+    AliasTable table_;  // over texels
 };
+
+// Uniform over the texel's square of the map, so that neither the map's coordinates nor the direction need an inverse
+// function.
+inline EnvironmentSampler::Draw EnvironmentSampler::sample(std::uint64_t bits, Vec2 u) const {
+    const auto [cell, chance] = table_.sample(bits);
+    const std::uint32_t w = std::uint32_t(map_.width), x = cell % w, y = cell / w;
+    __builtin_prefetch(&map_.pixels[cell]);
+    Draw draw;
+    draw.uv = Vec2((float(x) + u.x) / float(w), (float(y) + u.y) / float(map_.height));
+    const SinCos polar = sin_cos_turns(0.5f * draw.uv.y), bearing = sin_cos_turns(draw.uv.x - 0.5f);
+    draw.light.direction = Vec3(polar.sine * bearing.sine, polar.cosine, -polar.sine * bearing.cosine);
+    draw.light.pdf = chance / (texel_at_horizon_ * std::max(polar.sine, 1e-9f));
+    return draw;
+}
 
 /// Emissive triangles, drawn by approximate power, uniformly by area.
 class EmitterSampler {
   public:
     EmitterSampler(const RayScene& rays, const Materials& materials);
     bool empty() const { return table_.empty(); }
-    LightSample sample(const Vec3& from, Random& random) const;
+    /// bits   64 uniform random bits; `u` uniform in [0,1)^2
+    LightSample sample(const Vec3& from, std::uint64_t bits, Vec2 u) const;
+    LightSample sample(const Vec3& from, Random& random) const {
+        const std::uint64_t bits = random.bits();
+        const float u = random.next(), v = random.next();
+        return sample(from, bits, {u, v});
+    }
     /// Density with which sample() at a distance finds a point of this triangle under this |cosine|.
     float pdf(std::uint32_t triangle, float distance, float cosine) const;
 
   private:
+    /// What sample() needs of a triangle, in one place in memory.
+    struct Emitter {
+        Vec3 corner, edge_u, edge_v, normal;
+        float pdf_area;
+        std::uint32_t triangle;
+        Lit lit;
+        bool uniform;  // `radiance` holds everywhere
+        Rgb radiance;
+    };
     const RayScene& rays_;
     const Materials& materials_;
     AliasTable table_;
-    std::vector<std::uint32_t> triangles_;
-    std::vector<float> pdf_area_;      // one per triangle of the mesh; empty when there are no emitters
+    std::vector<Emitter> emitters_;
+    std::vector<float> pdf_area_;  // one per triangle of the mesh; empty when there are no emitters
 };
 
 /// Point and spot lamps: one is drawn in proportion to what it would give this point, were nothing between.
@@ -91,7 +134,8 @@ class LampSampler {
   public:
     explicit LampSampler(std::span<const PlacedLight> lamps);
     bool empty() const { return lamps_.empty(); }
-    std::optional<LightSample> sample(const Vec3& from, Random& random) const;
+    /// u   uniform in [0,1)
+    std::optional<LightSample> sample(const Vec3& from, float u) const;
 
   private:
     std::vector<PlacedLight> lamps_;

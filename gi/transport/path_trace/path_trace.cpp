@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <mutex>
 #include <utility>
@@ -40,28 +41,41 @@ class ProgressCounter {
 
 constexpr int kTile = 16;  // pixels: small enough to share out, large enough to keep rays together
 
-/// Adds samples first .. first + count - 1 of every pixel. Every pixel belongs to one tile, and its samples are added
-/// in order, so the sums do not depend on the threads.
+/// Samples that are spread over a pixel together. Large groups have less noise, many groups tell it better.
+int group_size(const PathTraceSettings& settings) {
+    constexpr int kGroups = 8, kLargest = 1024;
+    return std::clamp(int(std::bit_floor(unsigned(settings.spp) / kGroups)), 1, kLargest);
+}
+
+/// Samples first .. first + count - 1 of one pixel, group by group.
+void add_pixel(Film& film, const Integrator& integrator, const View& view, std::uint64_t seed, int x, int y, int first,
+               int count, int group_size) {
+    const std::uint64_t receiver = std::uint64_t(y) * std::uint64_t(film.width()) + std::uint64_t(x);
+    for (int s = first; s < first + count;) {
+        Film::Group group;
+        const int end = std::min(s - s % group_size + group_size, first + count);
+        for (; s < end; ++s) {
+            PathRandom random(seed, receiver, std::uint64_t(s), std::uint32_t(group_size));
+            const Vec2 place = Vec2(x, y) + random.pair(Net::Pixel);
+            const ViewRay ray = view_ray(view, place.x, place.y, film.width(), film.height());
+            const Integrator::Sample sample = integrator.camera_sample(ray, random);
+            group.add(sample.value, sample.rays);
+        }
+        film.add(x, y, group);
+    }
+}
+
+/// Adds samples first .. first + count - 1 of every pixel; `first` starts a group. Every pixel belongs to one tile, and
+/// its samples are added in order, so the sums do not depend on the threads.
 void add_round(Film& film, const Integrator& integrator, const View& view, std::uint64_t seed, int first, int count,
-               ProgressCounter& progress) {
+               int group_size, ProgressCounter& progress) {
     const int tiles_x = (film.width() + kTile - 1) / kTile, tiles_y = (film.height() + kTile - 1) / kTile;
-    const auto trace_row = [&](int y, int x0, int x1) {
-        for (int x = x0; x < x1; ++x)
-            for (int s = first; s < first + count; ++s) {
-                Random random(seed, std::uint64_t(y) * std::uint64_t(film.width()) + std::uint64_t(x),
-                              std::uint64_t(s));
-                const float px = float(x) + random.next(), py = float(y) + random.next();
-                const ViewRay ray = view_ray(view, px, py, film.width(), film.height());
-                const Integrator::Sample sample = integrator.camera_sample(ray, random);
-                film.add(x, y, sample.value, sample.rays);
-            }
-    };
     tbb::parallel_for(tbb::blocked_range<int>(0, tiles_x * tiles_y, 1), [&](const tbb::blocked_range<int>& range) {
         for (int tile = range.begin(); tile != range.end(); ++tile) {
             const int x0 = tile % tiles_x * kTile, y0 = tile / tiles_x * kTile;
             const int x1 = std::min(x0 + kTile, film.width()), y1 = std::min(y0 + kTile, film.height());
             for (int y = y0; y < y1 && !progress.stopped(); ++y) {
-                trace_row(y, x0, x1);
+                for (int x = x0; x < x1; ++x) add_pixel(film, integrator, view, seed, x, y, first, count, group_size);
                 progress.add(double(x1 - x0) * count);
             }
         }
@@ -69,11 +83,12 @@ void add_round(Film& film, const Integrator& integrator, const View& view, std::
 }
 
 /// Samples still to take so that the error falls to the target: it falls with the square root of their number.
-/// At most doubles what there is, since early estimates of the error are rough.
+/// At most doubles what there is, since early estimates of the error are rough; whole groups, but for the last.
 int next_round(const PathTraceSettings& settings, int spent, double error) {
     const double needed = double(spent) * (error / settings.error) * (error / settings.error) * 1.02;
     const int more = error < 0.0 ? spent : int(std::min(std::ceil(needed) - spent, double(spent)));
-    return std::clamp(more, 1, settings.max_spp - spent);
+    const int group = group_size(settings);
+    return std::clamp((more + group - 1) / group * group, 1, settings.max_spp - spent);
 }
 
 }  // namespace
@@ -84,7 +99,8 @@ PathTraceImage path_trace(const RayScene& rays, const Lighting& lighting, std::s
     const Integrator integrator(rays, lighting, lamps, settings);
     Film film(width, height);
     const bool to_error = settings.error > 0.0;
-    int spent = 0;
+    const int group = group_size(settings);
+    int spent = 0, groups = 0;
     int round = std::clamp(settings.spp, to_error ? 2 : 1, std::max(settings.max_spp, 2));
     double error = -1.0;
     while (round > 0) {
@@ -92,14 +108,15 @@ PathTraceImage path_trace(const RayScene& rays, const Lighting& lighting, std::s
         ProgressCounter counter(progress ? [&, spent, round](double done) {
             return progress((spent + done * round) / double(spent + round));
         } : Progress{}, double(width) * height * round);
-        add_round(film, integrator, view, settings.seed, spent, round, counter);
+        add_round(film, integrator, view, settings.seed, spent, round, group, counter);
         counter.throw_if_stopped();
         spent += round;
-        error = film.relative_error(spent);
+        groups += (round + group - 1) / group;
+        error = film.relative_error(spent, groups);
         const bool enough = !to_error || (error >= 0.0 && error <= settings.error) || spent >= settings.max_spp;
         round = enough ? 0 : next_round(settings, spent, error);
     }
-    return {.radiance = film.mean(spent), .standard_error = film.standard_error(spent), .spp = spent,
+    return {.radiance = film.mean(spent), .standard_error = film.standard_error(spent, groups), .spp = spent,
             .relative_error = error, .rays = film.rays()};
 }
 
@@ -110,12 +127,13 @@ std::vector<Rgb> path_trace_irradiance(const RayScene& rays, const Lighting& lig
     own.layer = settings.layer == Layer::Final ? Layer::Final : Layer::Indirect;
     const Integrator integrator(rays, lighting, lamps, own);
     std::vector<Rgb> irradiance(points.size());
+    const std::uint32_t group = std::bit_ceil(std::uint32_t(settings.spp));
     ProgressCounter counter(progress, double(points.size()));
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 1), [&](const auto& range) {
         for (std::size_t i = range.begin(); i != range.end() && !counter.stopped(); ++i) {
             glm::dvec3 sum(0.0);
             for (int s = 0; s < settings.spp; ++s) {
-                Random random(settings.seed, i, std::uint64_t(s));
+                PathRandom random(settings.seed, i, std::uint64_t(s), group);
                 sum += glm::dvec3(integrator.irradiance_sample(points[i], random).value);
             }
             irradiance[i] = Rgb(sum / double(settings.spp));

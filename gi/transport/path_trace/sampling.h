@@ -2,7 +2,9 @@
 // Directions and points drawn from densities, in families sample_x / pdf_x. Densities are per solid angle; local
 // frames have z up. The methods are those of Pharr, Jakob, Humphreys 2023, appendix A.5, and Duff et al. 2017.
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "engine/base/units.h"
 
@@ -23,9 +25,44 @@ struct Frame {
     Vec3 to_world(const Vec3& v) const { return x * v.x + y * v.y + z * v.z; }
 };
 
+struct SinCos {
+    float sine, cosine;
+};
+/// Of an angle in turns, -1 to 1, within 1e-7; the polynomials are those of Moshier's Cephes. Several times as fast as
+/// the library's, without a branch to mispredict, and alike on every processor.
+inline SinCos sin_cos_turns(float turns) {
+    const float quarters = 4.0f * turns;
+    const int nearest = int(quarters + std::copysign(0.5f, quarters));
+    const float x = (quarters - float(nearest)) * (0.5f * kPiF), x2 = x * x;
+    const float s = x + x * x2 * (-1.6666654611e-1f + x2 * (8.3321608736e-3f - x2 * 1.9515295891e-4f));
+    const float c = 1.0f - 0.5f * x2 +
+                    x2 * x2 * (4.166664568298827e-2f + x2 * (-1.388731625493765e-3f + x2 * 2.443315711809948e-5f));
+    const auto quadrant = std::uint32_t(nearest);
+    const std::uint32_t swap = 0u - (quadrant & 1u), bits = std::bit_cast<std::uint32_t>(s),
+                        other = (bits ^ std::bit_cast<std::uint32_t>(c)) & swap;
+    const std::uint32_t sine = (bits ^ other) ^ ((quadrant & 2u) << 30);
+    const std::uint32_t cosine = (std::bit_cast<std::uint32_t>(c) ^ other) ^ (((quadrant + 1u) & 2u) << 30);
+    return {std::bit_cast<float>(sine), std::bit_cast<float>(cosine)};
+}
+
+/// atan2(y, x) in turns, -0.5 to 0.5, within 2e-8 of a turn before rounding; 0 for the zero vector. The polynomial
+/// interpolates atan at Chebyshev nodes.
+inline float turns_of(float y, float x) {
+    const float ax = std::abs(x), ay = std::abs(y);
+    const float a = std::min(ax, ay) / std::max(std::max(ax, ay), 1e-37f), s = a * a;
+    float t = -0.00072571343f;
+    for (const float k :
+         {0.0037847871f, -0.009363046f, 0.0157067872f, -0.0222869285f, 0.0317784067f, -0.0530492275f, 0.1591549243f})
+        t = t * s + k;
+    t *= a;
+    t = ay > ax ? 0.25f - t : t;
+    t = x < 0.0f ? 0.5f - t : t;
+    return std::copysign(t, y);
+}
+
 inline Vec3 direction_around_z(float cos_theta, float sin_theta, float u) {
-    const float phi = 2.0f * kPiF * u;
-    return Vec3(sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta);
+    const SinCos phi = sin_cos_turns(u);
+    return Vec3(sin_theta * phi.cosine, sin_theta * phi.sine, cos_theta);
 }
 
 inline Vec3 sample_cosine_hemisphere(float u, float v) {
@@ -49,6 +86,17 @@ inline Vec3 sample_cap(float height, float u, float v) {
 }
 inline float pdf_cap(float height) {
     return 1.0f / (2.0f * kPiF * height);
+}
+
+inline constexpr float kBelowOne = 1.0f - 0x1p-24f;
+
+/// True with this chance, by u uniform in [0,1); u is stretched to [0,1) again and can be used on. A chance of 0 or
+/// less leaves it as it is.
+inline bool choose(float& u, float chance) {
+    if (!(chance > 0.0f)) return false;
+    const bool chosen = u < chance;
+    u = std::min(chosen ? u / chance : (u - chance) / (1.0f - chance), kBelowOne);
+    return chosen;
 }
 
 /// Barycentric weights of the second and third corner, uniform over a triangle's area (Turk 1990).
