@@ -1,6 +1,7 @@
 // daylit info FILE.daylit: every part with its bytes, its error estimate and why it is there; what was skipped and why.
 #include "demo/info.h"
 
+#include <array>
 #include <cstdio>
 
 #include "demo/commands.h"
@@ -39,6 +40,18 @@ nlohmann::json describe_light(const Baked& baked) {
             {"metres_per_unit", baked.unit},      {"materials", baked.lambert ? "lambert" : "full"}};
 }
 
+nlohmann::json describe_lightmap(const DayLightmap& map) {
+    std::array<std::size_t, DayLightmap::kMostPatterns + 1> tiles{};  // by their number of patterns
+    for (std::uint8_t patterns : map.tile_patterns) ++tiles[patterns];
+    return {{"width", map.width},
+            {"height", map.height},
+            {"components", map.slots()},
+            {"tiles_by_components", tiles},
+            {"basis_components", map.basis.components},
+            {"hours", map.basis.hours},
+            {"error", map.error}};
+}
+
 std::string text(const char* format, double a, double b) {
     char buffer[256];
     std::snprintf(buffer, sizeof buffer, format, a, b);
@@ -68,8 +81,7 @@ nlohmann::json describe_baked(const std::filesystem::path& path) {
         about["parts"].push_back(part);
     }
     if (const auto& map = baked.lightmap)
-        about["lightmap"] = {{"width", map->width}, {"height", map->height}, {"components", map->basis.components},
-                             {"hours", map->basis.hours}, {"triangles", map->corner_uvs.size() / 3}};
+        about["lightmap"] = describe_lightmap(*map);
     if (const auto& volume = baked.volume)
         about["volume"] = {{"probes", volume->size}, {"spacing", volume->spacing}, {"components", volume->basis.components},
                            {"hours", volume->basis.hours},

@@ -76,11 +76,12 @@ MeshPlace nearest_place(const RayScene& rays, const SurfaceSample& point) {
 
 }  // namespace
 
-std::vector<Rgb> lightmap_irradiance(const DayLightmap& lightmap, const Scene& scene, double hour,
+std::vector<Rgb> lightmap_irradiance(const DayLightmap& lightmap, const Scene& scene,
+                                     const LightScales& scales, double hour,
                                      const std::vector<SurfaceSample>& points) {
     const WorldMesh mesh = world_mesh(scene, pose_scene(scene), Part::Static);
     const RayScene rays(scene, mesh);
-    const std::vector<float> weights = lightmap.basis.weights(hour);
+    const std::vector<Rgb> light = lightmap.tile_light(lightmap.basis.weights(scales, hour));
     constexpr float kReach = 1e-4f;  // of the scene's size
     const float reach = kReach * glm::distance(rays.bounds().min, rays.bounds().max);
     std::vector<Rgb> irradiance(points.size());
@@ -90,7 +91,7 @@ std::vector<Rgb> lightmap_irradiance(const DayLightmap& lightmap, const Scene& s
             const MeshPlace place = under ? *under : nearest_place(rays, points[i]);
             const Vec2* uv = &lightmap.corner_uvs[3 * std::size_t(place.triangle)];
             const Vec2 w = place.barycentric;
-            irradiance[i] = lightmap.irradiance(uv[0] + w.x * (uv[1] - uv[0]) + w.y * (uv[2] - uv[0]), weights);
+            irradiance[i] = lightmap.irradiance(uv[0] + w.x * (uv[1] - uv[0]) + w.y * (uv[2] - uv[0]), light);
         }
     });
     return irradiance;

@@ -11,7 +11,8 @@ namespace daylit {
 /// Indirect irradiance, lux, of the lightmap at the place of the static surface nearest to each point, among surfaces
 /// that face the point's normal where there are any.
 /// lightmap   made for this scene's static mesh (checked when it was loaded)
-std::vector<Rgb> lightmap_irradiance(const DayLightmap& lightmap, const Scene& scene, double hour,
+std::vector<Rgb> lightmap_irradiance(const DayLightmap& lightmap, const Scene& scene,
+                                     const LightScales& scales, double hour,
                                      const std::vector<SurfaceSample>& points);
 
 }  // namespace daylit

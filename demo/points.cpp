@@ -45,7 +45,8 @@ std::vector<Rgb> by_lightmap(const PointsOptions& options, const TracedScene& sc
                              const std::vector<SurfaceSample>& points) {
     if (!scene.loaded.baked) throw UsageError("--method", "lightmap reads a baked file; name it with --light");
     if (!scene.loaded.baked->lightmap) throw Error(options.light, "has no lightmap; daylit info says why");
-    return lightmap_irradiance(*scene.loaded.baked->lightmap, scene.loaded.scene, scene.hour, points);
+    return lightmap_irradiance(*scene.loaded.baked->lightmap, scene.loaded.scene, scene.lighting.scales,
+                               scene.hour, points);
 }
 
 std::vector<Rgb> by_volume(const PointsOptions& options, const TracedScene& scene,

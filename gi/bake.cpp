@@ -20,13 +20,22 @@ std::vector<bool> in_the_open(const Texels& texels, const GatherHits& hits) {
 
 std::string describe(const EncodedLightmap& encoded, const Texels& texels, const BakePlan& plan,
                      const DaySolution& day) {
-    char error[32];
+    char error[32], patterns[160];
     std::snprintf(error, sizeof error, "%.4f", day.basis.error);
+    std::snprintf(patterns, sizeof patterns,
+                  "kept as %d keyframes and tiles of %.1f components (%d at most), worst tile's error %.3f",
+                  int(encoded.map.basis.hours.size()), encoded.mean_patterns, encoded.map.slots(), encoded.worst_tile);
     return std::to_string(texels.count()) + " texels, " + std::to_string(plan.rays) + " rays each, " +
            std::to_string(plan.hours.size()) + " hours in " + std::to_string(day.basis.components) +
-           " components (error " + error + "), " + std::to_string(day.bounces) + " bounces; kept as " +
-           std::to_string(encoded.map.basis.hours.size()) + " keyframes in " +
-           std::to_string(encoded.map.basis.components) + " components";
+           " components (error " + error + "), " + std::to_string(day.bounces) + " bounces; " + patterns;
+}
+
+/// Each texel is its own row, but those inside solid geometry have none.
+std::vector<std::uint32_t> rows_of_texels(const std::vector<bool>& open) {
+    std::vector<std::uint32_t> result(open.size(), ~0u);
+    for (std::uint32_t t = 0; t < open.size(); ++t)
+        if (open[t]) result[t] = t;
+    return result;
 }
 
 /// The hours that the file keeps: at most half an hour apart where hours are baked more closely.
@@ -85,7 +94,11 @@ void bake_light(const Scene& scene, const WorldMesh& mesh, std::span<const Place
     if (plan.lightmap) {
         const std::vector<bool> open = in_the_open(texels, hits);
         day.texels = smooth(smoothing_weights(rays, texels, hits.nearness, open), day.texels, day.basis.components);
-        EncodedLightmap encoded = encode_lightmap(atlas, texels, day, keyframes, open, encoding);
+        DayLightmap shape;
+        shape.width = atlas.width, shape.height = atlas.height, shape.corner_uvs = atlas.corner_uvs;
+        const LightRows rows{light_basis(day.basis), 1, day.texels, moments(day, light)};
+        EncodedLightmap encoded = encode_lightmap(std::move(shape), rows,
+                                                  rows_of_pixels(atlas, texels, rows_of_texels(open)), {});
         note(baked.plan, "lightmap", describe(encoded, texels, plan, day), encoded.error);
         baked.lightmap = std::move(encoded.map);
     }

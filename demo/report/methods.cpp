@@ -36,20 +36,20 @@ ReportMethod lightmap(const BakeSettings& base) {
     m.name = m.part = "lightmap";
     m.about =
         "Day lightmaps (Bahnsen et al.): indirect irradiance in texels over static surfaces, all hours of the day in "
-        "one "
-        "bake, stored as a few images times curves of the hour.";
+        "one bake, stored tile by tile as a few images times curves of the hour.";
     m.in_pictures = true;
     m.sweep = day_gather_sweep(base);
     m.present = [](const Baked& baked) { return baked.lightmap.has_value(); };
-    m.irradiance = [](const Baked& baked, const Scene& scene, double hour, const std::vector<SurfaceSample>& points) {
-        return lightmap_irradiance(*baked.lightmap, scene, hour, points);
+    m.irradiance = [](const Baked& baked, const Scene& scene, const Instant& instant,
+                      const std::vector<SurfaceSample>& points) {
+        return lightmap_irradiance(*baked.lightmap, scene, instant.scales, instant.hour, points);
     };
-    m.look_up = [](const Baked& baked, double hour, const std::vector<SurfaceSample>&) {
+    m.look_up = [](const Baked& baked, const Instant& instant, const std::vector<SurfaceSample>&) {
         const DayLightmap& map = *baked.lightmap;
-        const std::vector<float> weights = map.basis.weights(hour);
+        const std::vector<Rgb> light = map.tile_light(map.basis.weights(instant.scales, instant.hour));
         constexpr std::size_t kStride = 7919;  // a prime: neighbours in time are not neighbours in the atlas
         return seconds_of_one([&](std::size_t i) {
-            return map.irradiance(map.corner_uvs[(i * kStride) % map.corner_uvs.size()], weights);
+            return map.irradiance(map.corner_uvs[(i * kStride) % map.corner_uvs.size()], light);
         });
     };
     m.answers = [](const Baked& baked) {
@@ -64,14 +64,15 @@ ReportMethod volume(const BakeSettings& base) {
     m.about = "Irradiance volume (Oat): radiance in spherical harmonics at points in free space, for what moves.";
     m.in_space = true;
     m.present = [](const Baked& baked) { return baked.volume.has_value(); };
-    m.irradiance = [](const Baked& baked, const Scene&, double hour, const std::vector<SurfaceSample>& points) {
-        const std::vector<float> weights = baked.volume->basis.weights(hour);
+    m.irradiance = [](const Baked& baked, const Scene&, const Instant& instant,
+                      const std::vector<SurfaceSample>& points) {
+        const std::vector<float> weights = baked.volume->basis.weights(instant.hour);
         std::vector<Rgb> light;
         for (const SurfaceSample& p : points) light.push_back(baked.volume->irradiance(p.position, p.normal, weights));
         return light;
     };
-    m.look_up = [](const Baked& baked, double hour, const std::vector<SurfaceSample>& points) {
-        const std::vector<float> weights = baked.volume->basis.weights(hour);
+    m.look_up = [](const Baked& baked, const Instant& instant, const std::vector<SurfaceSample>& points) {
+        const std::vector<float> weights = baked.volume->basis.weights(instant.hour);
         return seconds_of_one([&](std::size_t i) {
             const SurfaceSample& p = points[i % points.size()];
             return baked.volume->irradiance(p.position, p.normal, weights);

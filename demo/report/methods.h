@@ -10,6 +10,12 @@
 
 namespace daylit {
 
+/// The moment that light is asked for.
+struct Instant {
+    double hour = 12.0;
+    LightScales scales;  // of light's parts, then
+};
+
 struct ReportMethod {
     std::string name, about;
     std::string part;          // of a bake, by its name in --parts
@@ -19,11 +25,11 @@ struct ReportMethod {
     /// False when the bake left the part out; `why` is the plan's reason then.
     std::function<bool(const Baked& baked)> present;
     /// Indirect irradiance at points, lux.
-    std::function<std::vector<Rgb>(const Baked& baked, const Scene& scene, double hour,
+    std::function<std::vector<Rgb>(const Baked& baked, const Scene& scene, const Instant& instant,
                                    const std::vector<SurfaceSample>& points)>
         irradiance;
     /// Seconds of one look-up on the CPU, by many; the place in the scene is known already.
-    std::function<double(const Baked& baked, double hour, const std::vector<SurfaceSample>& points)> look_up;
+    std::function<double(const Baked& baked, const Instant& instant, const std::vector<SurfaceSample>& points)> look_up;
     /// Places times keyframes that the bake holds light for.
     std::function<double(const Baked& baked)> answers;
 };

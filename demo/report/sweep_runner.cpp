@@ -19,13 +19,19 @@ std::string note_of(const Baked& baked, const std::string& part) {
     return "not in the bake's plan";
 }
 
+Instant instant(const LightModel& light, double hour) {
+    return {hour, light.scales(hour, light.settings().clouds)};
+}
+
 void judge_points(const ReportMethod& method, const Baked& baked, const Judges& judges, RunResult& run) {
     const PointTruth& truth = method.in_space ? judges.space : judges.surface;
     LightAtPoints light;
     for (const double hour : truth.hours)
-        light.push_back(method.irradiance(baked, judges.level.loaded.scene, hour, truth.points));
+        light.push_back(
+            method.irradiance(baked, judges.level.loaded.scene, instant(judges.level.light, hour), truth.points));
     run.values.merge(judge(light, truth));
-    run.values["look_up_seconds"] = method.look_up(baked, truth.hours.front(), truth.points);
+    run.values["look_up_seconds"] =
+        method.look_up(baked, instant(judges.level.light, truth.hours.front()), truth.points);
     run.values["answers"] = method.answers(baked);
 }
 

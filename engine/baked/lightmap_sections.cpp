@@ -1,63 +1,199 @@
 #include "engine/baked/lightmap_sections.h"
 
-#include "engine/baked/day_basis_bytes.h"
+#include <algorithm>
+#include <cmath>
+
+#include "engine/baked/integer_coding.h"
+#include "engine/baked/light_basis_bytes.h"
 
 namespace daylit {
 namespace {
 
 constexpr std::uint32_t kMaxSide = 16384;
+constexpr std::size_t kMostValues = std::size_t(1) << 29;
+constexpr float kUvSteps = 64.0f;  // a texel; its centre is one of them, so that no coordinate moves past a centre
+
+struct Shape {
+    DayLightmap map;
+    std::size_t corners = 0;
+};
 
 Bytes code_shape(const DayLightmap& map) {
     ByteWriter w;
-    w.put(std::uint32_t(map.width)), w.put(std::uint32_t(map.height));
-    w.put(std::uint32_t(map.basis.components)), w.put(std::uint32_t(map.basis.hours.size()));
-    w.put(std::uint32_t(map.corner_uvs.size()));
-    code_curves(map.basis, w);
+    w.put(std::uint32_t(map.width)), w.put(std::uint32_t(map.height)), w.put(std::uint32_t(map.corner_uvs.size()));
+    w.put(map.error);
+    put_basis(w, map.basis);
+    w.put_all(map.tile_patterns);
     return w.take();
 }
 
-/// Returns the number of corners that LMUV must hold.
-std::size_t decode_shape(ByteReader r, DayLightmap& map) {
+Shape decode_shape(ByteReader r) {
+    Shape shape;
+    DayLightmap& map = shape.map;
     map.width = int(r.number<std::uint32_t>(1, kMaxSide, "the lightmap's width"));
     map.height = int(r.number<std::uint32_t>(1, kMaxSide, "the lightmap's height"));
-    map.basis.components = int(r.number<std::uint32_t>(0, kMaxBasisComponents, "the number of components"));
-    const std::size_t keyframes = r.number<std::uint32_t>(1, kMaxKeyframes, "the number of keyframes");
-    const std::size_t corners = r.get<std::uint32_t>();
-    if (corners % 3 != 0) r.fail("counts corners that are not three per triangle");
-    decode_curves(r, keyframes, map.basis);
+    shape.corners = r.get<std::uint32_t>();
+    if (shape.corners % 3 != 0) r.fail("counts corners that are not three per triangle");
+    map.error = r.finite();
+    map.basis = get_basis(r);
+    map.tile_patterns = r.get_all<std::uint8_t>(map.tiles());
+    for (std::uint8_t count : map.tile_patterns)
+        if (count > DayLightmap::kMostPatterns) r.fail("has a tile of too many patterns");
+    if (std::size_t(map.slots()) * map.texels() > kMostValues) r.fail("has too many texels");
     r.expect_end();
-    return corners;
+    return shape;
+}
+
+/// Steps from each corner to the next, u apart from v, the four bytes of each apart.
+Bytes code_corner_uvs(const DayLightmap& map) {
+    ByteWriter w;
+    for (int axis = 0; axis < 2; ++axis) {
+        const float steps = kUvSteps * float(axis == 0 ? map.width : map.height);
+        Bytes bytes(4 * map.corner_uvs.size());
+        std::uint32_t before = 0;
+        for (std::size_t i = 0; i < map.corner_uvs.size(); ++i) {
+            const auto at = std::uint32_t(std::lround(map.corner_uvs[i][axis] * steps));
+            const std::uint32_t step = at - before, folded = (step << 1) ^ (step >> 31 ? ~0u : 0u);
+            for (std::size_t b = 0; b < 4; ++b) bytes[b * map.corner_uvs.size() + i] = std::uint8_t(folded >> (8 * b));
+            before = at;
+        }
+        w.put_all(bytes);
+    }
+    return w.take();
 }
 
 void decode_corner_uvs(ByteReader r, std::size_t corners, DayLightmap& map) {
-    map.corner_uvs = r.get_all<Vec2>(corners);
-    for (const Vec2& uv : map.corner_uvs)
-        if (!(uv.x >= 0.0f && uv.x <= 1.0f && uv.y >= 0.0f && uv.y <= 1.0f)) r.fail("leaves the atlas");
+    map.corner_uvs.resize(corners);
+    for (int axis = 0; axis < 2; ++axis) {
+        const float steps = kUvSteps * float(axis == 0 ? map.width : map.height);
+        const std::vector<std::uint8_t> bytes = r.get_all<std::uint8_t>(4 * corners);
+        std::uint32_t at = 0;
+        for (std::size_t i = 0; i < corners; ++i) {
+            std::uint32_t folded = 0;
+            for (std::size_t b = 0; b < 4; ++b) folded |= std::uint32_t(bytes[b * corners + i]) << (8 * b);
+            at += (folded >> 1) ^ (folded & 1u ? ~0u : 0u);
+            if (float(at) > steps) r.fail("leaves the atlas");
+            map.corner_uvs[i][axis] = float(at) / steps;
+        }
+    }
     r.expect_end();
 }
 
-std::size_t texel_halves(const DayLightmap& map) {
-    return 3 * std::size_t(map.width) * std::size_t(map.height) * std::size_t(map.basis.components);
+std::size_t pattern_count(const DayLightmap& map) {
+    std::size_t count = 0;
+    for (std::uint8_t n : map.tile_patterns) count += n;
+    return count;
+}
+
+/// Red and blue are kept as what they differ from green.
+Bytes code_patterns(const DayLightmap& map) {
+    ByteWriter w;
+    w.put_all(map.scales);
+    const std::size_t components = std::size_t(map.basis.components), count = pattern_count(map);
+    std::vector<std::int16_t> values(map.patterns.size());
+    // Component by component, since each has numbers of its own size.
+    for (std::size_t p = 0; p < count; ++p)
+        for (std::size_t r = 0; r < components; ++r) {
+            const std::int16_t* pattern = map.patterns.data() + p * 3 * components + r;
+            const std::int16_t green = pattern[components];
+            for (std::size_t c = 0; c < 3; ++c)
+                values[(c * components + r) * count + p] =
+                    std::int16_t(std::uint16_t(pattern[c * components] - (c == 1 ? 0 : green)));
+        }
+    put_integers(w, values);
+    return w.take();
+}
+
+void decode_patterns(ByteReader r, DayLightmap& map) {
+    const std::size_t components = std::size_t(map.basis.components), count = pattern_count(map);
+    map.scales = r.get_all<float>(count);
+    for (float scale : map.scales)
+        if (!std::isfinite(scale)) r.fail("holds a scale that is not finite");
+    const std::vector<std::int16_t> values = get_integers(r, 3 * components * count);
+    r.expect_end();
+    map.patterns.resize(values.size());
+    for (std::size_t p = 0; p < count; ++p)
+        for (std::size_t k = 0; k < components; ++k) {
+            const std::int16_t green = values[(components + k) * count + p];
+            for (std::size_t c = 0; c < 3; ++c)
+                map.patterns[(p * 3 + c) * components + k] =
+                    std::int16_t(std::uint16_t(values[(c * components + k) * count + p] + (c == 1 ? 0 : green)));
+        }
+}
+
+/// Calls use(plane, x, y) for the texels of every slot, tile by tile, in tiles that have it.
+template <class Use>
+void for_tiles(const DayLightmap& map, int slot, const Use& use) {
+    for (int tile = 0; tile < int(map.tiles()); ++tile) {
+        if (map.tile_patterns[std::size_t(tile)] <= slot) continue;
+        const int x0 = tile % map.tiles_across() * map.kTileSide, y0 = tile / map.tiles_across() * map.kTileSide;
+        for (int y = y0; y < std::min(y0 + map.kTileSide, map.height); ++y)
+            for (int x = x0; x < std::min(x0 + map.kTileSide, map.width); ++x) use(x, y);
+    }
+}
+
+Bytes code_texels(const DayLightmap& map) {
+    ByteWriter w;
+    w.put_all(map.exponents);
+    std::vector<std::int16_t> surprises;
+    for (int slot = 0; slot < map.slots(); ++slot) {
+        const std::int16_t* plane = map.values.data() + std::size_t(slot) * map.texels();
+        for_tiles(map, slot, [&](int x, int y) {
+            surprises.push_back(std::int16_t(plane[std::ptrdiff_t(y) * map.width + x] -
+                                             predicted_texel(plane, map.width, map.kTileSide, x, y)));
+        });
+    }
+    put_integers(w, surprises);
+    return w.take();
+}
+
+std::size_t coded_texels(const DayLightmap& map) {
+    std::size_t count = 0;
+    for (int slot = 0; slot < map.slots(); ++slot) for_tiles(map, slot, [&](int, int) { ++count; });
+    return count;
+}
+
+void decode_texels(ByteReader r, DayLightmap& map) {
+    map.exponents = r.get_all<std::uint8_t>(map.texels());
+    for (std::uint8_t exponent : map.exponents)
+        if (exponent > DayLightmap::kLargestExponent) r.fail("holds a texel that is out of range");
+    const std::vector<std::int16_t> surprises = get_integers(r, coded_texels(map));
+    r.expect_end();
+    map.values.assign(std::size_t(map.slots()) * map.texels(), 0);
+    const std::int16_t* next = surprises.data();
+    for (int slot = 0; slot < map.slots(); ++slot) {
+        std::int16_t* plane = map.values.data() + std::size_t(slot) * map.texels();
+        for_tiles(map, slot, [&](int x, int y) {
+            const int value = predicted_texel(plane, map.width, map.kTileSide, x, y) + *next++;
+            if (std::abs(value) > DayLightmap::kLargestValue) r.fail("holds a texel that is out of range");
+            plane[std::ptrdiff_t(y) * map.width + x] = std::int16_t(value);
+        });
+    }
 }
 
 }  // namespace
 
 std::vector<CodedSection> code_lightmap(const DayLightmap& map) {
-    return {code_section("LMAP", code_shape(map)), code_section("LMUV", bytes_of(map.corner_uvs)),
-            code_section("LMTX", bytes_of(map.components))};
+    return {code_section("LMAP", code_shape(map)), code_section("LMUV", code_corner_uvs(map)),
+            code_section("LMPT", code_patterns(map)), code_section("LMTX", code_texels(map))};
 }
 
 bool has_lightmap(const SectionFile& file) {
     return file.has("LMAP");
 }
 
+DayLightmap read_lightmap_shape(const SectionFile& file) {
+    return decode_shape(file.open("LMAP")).map;
+}
+
 DayLightmap read_lightmap(const SectionFile& file) {
-    DayLightmap map;
-    const std::size_t corners = decode_shape(file.open("LMAP"), map);
-    decode_corner_uvs(file.open("LMUV", corners * sizeof(Vec2)), corners, map);
-    ByteReader r = file.open("LMTX", texel_halves(map) * sizeof(std::uint16_t));
-    map.components = finite_halves(r, texel_halves(map), "texel");
-    return map;
+    Shape shape = decode_shape(file.open("LMAP"));
+    DayLightmap& map = shape.map;
+    decode_corner_uvs(file.open("LMUV", 8 * shape.corners), shape.corners, map);
+    const std::size_t patterns = pattern_count(map);
+    decode_patterns(file.open("LMPT", patterns * (sizeof(float) + 6 * std::size_t(map.basis.components))), map);
+    decode_texels(file.open("LMTX", map.texels() + 2 * coded_texels(map)), map);
+    return std::move(shape.map);
 }
 
 }  // namespace daylit

@@ -1,47 +1,85 @@
 #include "engine/render/baked_light.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/gtc/packing.hpp>
 
 #include "engine/gl/target.h"
 
 namespace daylit {
+namespace {
 
-BakedLight::BakedLight(const DayLightmap& lightmap)
-    : basis_(lightmap.basis), width_(lightmap.width), height_(lightmap.height) {
-    GLint largest = 0, layers = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-    glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
-    if (width_ > largest || height_ > largest || basis_.components > layers)
-        throw Error("lightmap", std::to_string(width_) + "x" + std::to_string(height_) + " with " +
-                                    std::to_string(basis_.components) + " components is more than this driver's " +
-                                    std::to_string(largest) + " texels or " + std::to_string(layers) +
-                                    " layers; bake with a larger --error");
-    const TextureLook nearest{GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE, GL_NONE};
-    components_ = make_texture_array(GL_RGB16F, width_, height_, std::max(basis_.components, 1), 1, nearest);
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTextureSubImage3D(components_.get(), 0, 0, 0, 0, width_, height_, basis_.components, GL_RGB, GL_HALF_FLOAT,
-                        lightmap.components.data());
-    irradiance_ = make_texture_2d(GL_RGBA16F, width_, height_);
-    framebuffer_ = make_framebuffer({irradiance_.get()});
-    weights_buffer_ = make_buffer(std::vector<float>(std::size_t(std::max(basis_.components, 1))),
-                                  GL_DYNAMIC_STORAGE_BIT);
+constexpr int kPerLayer = 4;  // patterns in the channels of one layer
+
+/// A layer's four patterns as halves, texel by texel.
+std::vector<std::uint16_t> layer_halves(const DayLightmap& map, int layer) {
+    std::vector<std::uint16_t> halves(kPerLayer * map.texels(), 0);
+    for (int slot = layer * kPerLayer; slot < std::min((layer + 1) * kPerLayer, map.slots()); ++slot)
+        for (std::size_t t = 0; t < map.texels(); ++t)
+            halves[kPerLayer * t + std::size_t(slot % kPerLayer)] = glm::packHalf1x16(
+                std::ldexp(float(map.values[std::size_t(slot) * map.texels() + t]), -2 * int(map.exponents[t])));
+    return halves;
 }
 
-bool BakedLight::stale(double hour) const { return !weights_ || basis_.weights(hour) != *weights_; }
+void check_size(const DayLightmap& map) {
+    GLint largest = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    if (map.width > largest || map.height > largest)
+        throw Error("lightmap", std::to_string(map.width) + "x" + std::to_string(map.height) +
+                                    " is more than this driver's " + std::to_string(largest) +
+                                    " texels; bake with a larger --error");
+}
 
-void BakedLight::set_hour(double hour, Programs& programs) {
-    if (!stale(hour)) return;
-    weights_ = basis_.weights(hour);
-    glNamedBufferSubData(weights_buffer_.get(), 0, GLsizeiptr(weights_->size() * sizeof(float)), weights_->data());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, weights_buffer_.get());
-    glBindTextureUnit(0, components_.get());
+}  // namespace
+
+BakedLight::BakedLight(const DayLightmap& lightmap) {
+    check_size(lightmap);
+    const int layers = std::max(1, (lightmap.slots() + kPerLayer - 1) / kPerLayer);
+    const TextureLook nearest{GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE, GL_NONE};
+    values_ = make_texture_array(GL_RGBA16F, lightmap.width, lightmap.height, layers, 1, nearest);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    for (int layer = 0; layer < layers; ++layer)
+        glTextureSubImage3D(values_.get(), 0, 0, 0, layer, lightmap.width, lightmap.height, 1, GL_RGBA, GL_HALF_FLOAT,
+                            layer_halves(lightmap, layer).data());
+    irradiance_ = make_texture_2d(GL_RGBA16F, lightmap.width, lightmap.height);
+    framebuffer_ = make_framebuffer({irradiance_.get()});
+    map_ = lightmap;
+    map_.values = {}, map_.exponents = {}, map_.corner_uvs = {};
+    for (std::uint32_t tile = 0; tile < map_.tile_patterns.size(); ++tile)
+        if (map_.tile_patterns[tile] > 0) tiles_.push_back(tile);
+    light_buffer_ = make_buffer(std::vector<Vec4>(map_.tiles() * DayLightmap::kMostPatterns), GL_DYNAMIC_STORAGE_BIT);
+    tile_buffer_ = make_buffer(tiles_.empty() ? std::vector<std::uint32_t>(1) : tiles_, 0);
+}
+
+bool BakedLight::stale(const LightScales& scales, double hour) const {
+    return !lit_ || map_.basis.weights(scales, hour) != weights_;
+}
+
+int BakedLight::set_light(const LightScales& scales, double hour, Programs& programs) {
+    std::vector<Rgb> weights = map_.basis.weights(scales, hour);
+    if (lit_ && weights == weights_) return 0;
+    weights_ = std::move(weights);
+    std::vector<Vec4> light;
+    for (const Rgb& l : map_.tile_light(weights_)) light.emplace_back(l, 0.0f);
+    for (std::uint32_t tile : tiles_)
+        light[tile * DayLightmap::kMostPatterns].w = float((map_.tile_patterns[tile] + kPerLayer - 1) / kPerLayer);
+    glNamedBufferSubData(light_buffer_.get(), 0, GLsizeiptr(light.size() * sizeof(Vec4)), light.data());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, light_buffer_.get());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, tile_buffer_.get());
+    glBindTextureUnit(0, values_.get());
     glBindSampler(0, 0);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
-    glViewport(0, 0, width_, height_);
+    glViewport(0, 0, map_.width, map_.height);
+    if (!lit_) {
+        constexpr float kBlack[] = {0.0f, 0.0f, 0.0f, 1.0f};
+        glClearBufferfv(GL_COLOR, 0, kBlack);  // tiles without light stay so
+    }
     glDisable(GL_DEPTH_TEST);
-    programs.get("fullscreen.vert", "relight.frag").use();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    programs.get("relight.vert", "relight.frag").use();
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(tiles_.size()));
     glEnable(GL_DEPTH_TEST);
+    lit_ = true;
+    return int(tiles_.size());
 }
 
 }  // namespace daylit

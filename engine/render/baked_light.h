@@ -1,7 +1,8 @@
 #pragma once
-// The embeddable face of baked light: a host sets the hour, includes shaders/baked_light.glsl in its own program, binds
-// texture() to unit 4, and multiplies the irradiance it fetches by albedo / pi. It needs no other part of the renderer.
-#include <optional>
+// The embeddable face of baked light: a host sets the light, includes shaders/baked_light.glsl in its own program,
+// binds texture() to unit 4, and multiplies the irradiance it fetches by albedo / pi. It needs no other part of the
+// renderer.
+#include <vector>
 
 #include "engine/baked/day_lightmap.h"
 #include "engine/gl/owners.h"
@@ -11,26 +12,27 @@ namespace daylit {
 
 class BakedLight {
   public:
-    /// Uploads the day's components as half floats; the lightmap need not outlive this.
+    /// Uploads the texels as half floats (exact); the lightmap need not outlive this.
     /// throws Error when the lightmap is larger than the driver's textures.
     explicit BakedLight(const DayLightmap& lightmap);
 
-    /// True when set_hour() would have work to do.
-    bool stale(double hour) const;
-    /// Combines the components into the irradiance of this hour; does nothing when the weights are the same as before.
-    /// Leaves framebuffer, viewport and program changed.
-    void set_hour(double hour, Programs& programs);
+    /// True when set_light() would have work to do.
+    bool stale(const LightScales& scales, double hour) const;
+    /// Combines the patterns of all tiles into the irradiance of this light; does nothing when it is the same as
+    /// before. Leaves framebuffer, viewport and program changed. Returns the number of tiles that were worked out.
+    int set_light(const LightScales& scales, double hour, Programs& programs);
 
     /// RGBA16F, lux, *indirect* irradiance; coordinates as DayLightmap::corner_uvs.
     GLuint texture() const { return irradiance_.get(); }
 
   private:
-    DayBasis basis_;
-    int width_, height_;
-    std::optional<std::vector<float>> weights_;  // of irradiance_
-    GlTexture components_, irradiance_;
+    DayLightmap map_;           // without texels and coordinates
+    std::vector<Rgb> weights_;  // of irradiance_; empty: not lit yet
+    bool lit_ = false;
+    std::vector<std::uint32_t> tiles_;  // that hold light
+    GlTexture values_, irradiance_;
     GlFramebuffer framebuffer_;
-    GlBuffer weights_buffer_;
+    GlBuffer light_buffer_, tile_buffer_;
 };
 
 }  // namespace daylit

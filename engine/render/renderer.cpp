@@ -57,16 +57,26 @@ std::vector<bool> used_materials(const Scene& scene, const WorldMesh& a, const W
 
 const char* show_define(Layer layer) {
     switch (layer) {
-        case Layer::Final: return "SHOW_FINAL";
-        case Layer::Direct: return "SHOW_DIRECT";
-        case Layer::Indirect: return "SHOW_INDIRECT";
-        case Layer::Irradiance: return "SHOW_IRRADIANCE";
-        case Layer::Albedo: return "SHOW_ALBEDO";
-        case Layer::Normal: return "SHOW_NORMAL";
-        case Layer::Depth: return "SHOW_DEPTH";
-        case Layer::Lightmap: return "SHOW_LIGHTMAP";
-        case Layer::Volume: return "SHOW_VOLUME";
-        default: return "SHOW_OTHER";  // parts that are not baked yet are black
+        case Layer::Final:
+            return "SHOW_FINAL";
+        case Layer::Direct:
+            return "SHOW_DIRECT";
+        case Layer::Indirect:
+            return "SHOW_INDIRECT";
+        case Layer::Irradiance:
+            return "SHOW_IRRADIANCE";
+        case Layer::Albedo:
+            return "SHOW_ALBEDO";
+        case Layer::Normal:
+            return "SHOW_NORMAL";
+        case Layer::Depth:
+            return "SHOW_DEPTH";
+        case Layer::Lightmap:
+            return "SHOW_LIGHTMAP";
+        case Layer::Volume:
+            return "SHOW_VOLUME";
+        default:
+            return "SHOW_OTHER";  // parts that are not baked yet are black
     }
 }
 
@@ -155,7 +165,8 @@ bool Renderer::State::part_moved(const Pose& to, bool dynamic) const {
     if (pose.world_from_node.empty()) return true;
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
         if (scene.nodes[n].dynamic != dynamic) continue;
-        if (pose.world_from_node[n] != to.world_from_node[n] || pose.morph_weights[n] != to.morph_weights[n]) return true;
+        if (pose.world_from_node[n] != to.world_from_node[n] || pose.morph_weights[n] != to.morph_weights[n])
+            return true;
     }
     return false;
 }
@@ -202,7 +213,8 @@ void Renderer::set_pose(const Pose& pose) {
     if (!standing && !moving) return;
 
     if (first) {
-        const WorldMesh still = world_mesh(s.scene, pose, Part::Static), dynamic = world_mesh(s.scene, pose, Part::Dynamic);
+        const WorldMesh still = world_mesh(s.scene, pose, Part::Static),
+                        dynamic = world_mesh(s.scene, pose, Part::Dynamic);
         s.draw.materials.emplace(s.scene, used_materials(s.scene, still, dynamic));
         s.build_static(still);
         if (dynamic.triangle_count() > 0) s.draw.parts[1].emplace(build_draw_mesh(dynamic, nullptr, true), true);
@@ -227,8 +239,8 @@ void Renderer::set_pose(const Pose& pose) {
 
 void Renderer::set_lighting(const Lighting& lighting) {
     state_->lighting.suns = lighting.suns;
+    state_->lighting.scales = lighting.scales;
     if (state_->lighting.suns.size() > glsl::kMaxSuns) state_->lighting.suns.resize(glsl::kMaxSuns);
-    state_->lighting.scales.evening = lighting.scales.evening;
     state_->draw.materials->set_evening(lighting.scales.evening);
     state_->sky.set_environment(lighting.sky);
 }
@@ -239,7 +251,8 @@ FrameFacts Renderer::State::facts(const FrameSettings& frame) {
     FrameFacts f;
     f.show = frame.show;
     f.baked = baked_light || baked_volume;
-    f.baked_stale = (baked_light && baked_light->stale(frame.hour)) || (baked_volume && baked_volume->stale(frame.hour));
+    f.baked_stale = (baked_light && baked_light->stale(lighting.scales, frame.hour)) ||
+                    (baked_volume && baked_volume->stale(frame.hour));
     f.suns = lighting.suns.size();
     f.any_surface = draw.parts[0] || draw.parts[1];
     if (shows_straight_light(frame.show)) {
@@ -301,8 +314,8 @@ FrameReport Renderer::draw(const FrameSettings& frame) {
     passes.run(PassKind::Relight, [&] {
         if (s.baked_volume) s.baked_volume->set_hour(frame.hour);
         if (!s.baked_light) return DrawCount{};
-        s.baked_light->set_hour(frame.hour, s.draw.programs);
-        return DrawCount{1, 1, 0, 0};
+        const int tiles = s.baked_light->set_light(s.lighting.scales, frame.hour, s.draw.programs);
+        return DrawCount{1, 2 * tiles, 0, 0};
     });
     passes.run(PassKind::SunShadows, [&] { return s.sun_shadow.draw(s.draw); });
     passes.run(PassKind::LampShadows, [&] { return s.lamp_shadow.draw(s.draw); });
@@ -333,9 +346,7 @@ FrameReport Renderer::draw(const FrameSettings& frame) {
     });
     glBindVertexArray(s.no_attributes.get());
     passes.run(PassKind::Sky, [&] { return s.sky.draw(s.draw.programs, s.lighting.suns.size()); });
-    passes.run(PassKind::Blended, [&] {
-        return s.blend.draw(s.draw, frame.view, s.frame_defines(frame.show));
-    });
+    passes.run(PassKind::Blended, [&] { return s.blend.draw(s.draw, frame.view, s.frame_defines(frame.show)); });
     glBindVertexArray(s.no_attributes.get());
     passes.run(PassKind::Resolve, [&] {
         s.target.resolve(s.draw.programs);
@@ -349,7 +360,9 @@ FrameReport Renderer::draw(const FrameSettings& frame) {
     return report;
 }
 
-Image Renderer::read_radiance() const { return state_->target.read(); }
+Image Renderer::read_radiance() const {
+    return state_->target.read();
+}
 
 void Renderer::present(unsigned framebuffer, int width, int height) {
     State& s = *state_;
@@ -369,6 +382,8 @@ Image Renderer::read_display() {
     return read_texture(texture.get(), width, height);
 }
 
-std::string Renderer::reload_shaders() { return state_->draw.programs.reload(); }
+std::string Renderer::reload_shaders() {
+    return state_->draw.programs.reload();
+}
 
 }  // namespace daylit

@@ -2,51 +2,290 @@
 
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/packing.hpp>
 
-#include "gi/encode/halves.h"
+#include "engine/baked/integer_coding.h"
+#include "engine/baked/light_basis_bytes.h"
 
 namespace daylit {
 namespace {
 
-// Luminance times pi to which displays adapt at the least (the floor of auto_ev).
-constexpr double kDarkestExposure = 1e-4 * kPi;
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
 
-DayRows day_rows(const DaySolution& day, std::span<const Keyframe> keyframes, const std::vector<std::uint32_t>& rows) {
-    DayRows result;
-    result.count = rows.size();
-    result.exposure = exposures(day, keyframes);
-    std::vector<std::vector<Rgb>> weights;
-    for (const Keyframe& keyframe : keyframes) {
-        result.hours.push_back(day.basis.columns.hours[keyframe.hour]);
-        weights.push_back(day.basis.weights(keyframe.hour, keyframe.scales));
-    }
-    result.read = [&day, &rows, weights = std::move(weights)](std::size_t row, Rgb* light) {
-        const Rgb* components = day.texel(rows[row]);
-        for (std::size_t k = 0; k < weights.size(); ++k) {
-            light[k] = Rgb(0.0f);
-            for (std::size_t r = 0; r < day.basis.components; ++r) light[k] += weights[k][r] * components[r];
+// A moment at which a tile is darker than this share of its brightest is judged as if it had that much.
+constexpr double kDarkestMoment = 0.03;
+constexpr Eigen::Index kCheckedEvery = 3;  // texels of a tile on which its error is measured
+
+/// What all tiles share.
+struct Judge {
+    const LightRows& rows;
+    const JudgedBasis& basis;
+    Matrix truth;  // moment_weights of the dense curves
+    Matrix shown;  // of the stored ones
+    Matrix parts;  // part_weights of the dense curves
+    Eigen::Index components() const { return truth.rows(); }
+    Eigen::Index moments() const { return truth.cols() / 3; }
+};
+
+/// Texels of a tile that show something.
+struct TileRows {
+    std::vector<std::uint32_t> pixels;  // of the atlas
+    std::vector<std::uint8_t> exponents;
+    Matrix light;             // texel x (channel, component), over its brightness' step
+    double brightness = 0.0;  // of exponent 0
+    Eigen::Index count() const { return light.rows(); }
+};
+
+struct CodedTile {
+    std::size_t patterns = 0;
+    std::vector<float> scales;
+    std::vector<std::int16_t> light;   // [pattern][channel][component]
+    std::vector<std::int16_t> values;  // [pattern][texel]
+    Vector wrong, all;                 // per moment: sums of squares over the texels that were checked
+};
+
+TileRows tile_rows(const Judge& judge, const DayLightmap& map, std::span<const std::uint32_t> row_of_pixel, int tile) {
+    TileRows result;
+    const int x0 = tile % map.tiles_across() * map.kTileSide, y0 = tile / map.tiles_across() * map.kTileSide;
+    for (int y = y0; y < std::min(y0 + map.kTileSide, map.height); ++y)
+        for (int x = x0; x < std::min(x0 + map.kTileSide, map.width); ++x) {
+            const auto pixel = std::uint32_t(y * map.width + x);
+            if (row_of_pixel[pixel] != ~0u) result.pixels.push_back(pixel);
         }
-    };
+    const Eigen::Index n = Eigen::Index(result.pixels.size()), q = judge.components(), given = judge.basis.turn.rows();
+    result.light.resize(n, 3 * q);
+    for (int c = 0; c < 3; ++c) {
+        Eigen::MatrixXf light(n, given);
+        for (Eigen::Index i = 0; i < n; ++i)
+            for (Eigen::Index r = 0; r < given; ++r)
+                light(i, r) = judge.rows.row(row_of_pixel[result.pixels[std::size_t(i)]])[r][c];
+        result.light.middleCols(c * q, q) = (light * judge.basis.turn).cast<double>();
+    }
+    const Vector brightness = (result.light.rowwise().norm() / std::sqrt(3.0)).cwiseMax(double(kDarkestRow));
+    result.brightness = n ? brightness.maxCoeff() : 0.0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const int exponent =
+            std::clamp(int(std::log2(result.brightness / brightness[i]) / 2.0), 0, map.kLargestExponent);
+        result.exponents.push_back(std::uint8_t(exponent));
+        result.light.row(i) *= std::ldexp(1.0, 2 * exponent) / result.brightness;
+    }
     return result;
 }
 
-/// Component images of all texels: texel-major, unscaled.
-std::vector<Rgb> project_all(const TimeBasis& basis, const DayRows& rows) {
-    std::vector<Rgb> result(rows.count * std::size_t(basis.components));
-    tbb::parallel_for(std::size_t(0), rows.count, [&](std::size_t row) {
-        std::vector<Rgb> keyframes(rows.hours.size());
-        rows.read(row, keyframes.data());
-        project(basis, keyframes.data(), result.data() + row * std::size_t(basis.components));
+/// Of numbers per channel and moment, the sums over channels.
+template <class Row>
+Vector sum_channels(const Row& row) {
+    const Eigen::Index moments = row.cols() / 3;
+    return (row.leftCols(moments) + row.middleCols(moments, moments) + row.rightCols(moments)).transpose();
+}
+
+/// Squares of light at every moment, summed over rows and channels. gram: of the rows
+Vector moment_squares(const Matrix& gram, const Matrix& weights) {
+    const Eigen::Index q = weights.rows(), moments = weights.cols() / 3;
+    Vector result = Vector::Zero(moments);
+    for (Eigen::Index c = 0; c < 3; ++c) {
+        const auto w = weights.middleCols(c * moments, moments);
+        result += (gram.block(c * q, c * q, q, q) * w).cwiseProduct(w).colwise().sum().transpose();
+    }
+    return result;
+}
+
+/// Light of rows ([channel][component]) at every moment: [row][channel][moment].
+Matrix moments_of(const Matrix& rows, const Matrix& weights) {
+    const Eigen::Index q = weights.rows(), moments = weights.cols() / 3;
+    Matrix result(rows.rows(), weights.cols());
+    for (Eigen::Index c = 0; c < 3; ++c)
+        result.middleCols(c * moments, moments).noalias() =
+            rows.middleCols(c * q, q) * weights.middleCols(c * moments, moments);
+    return result;
+}
+
+struct Patterns {
+    Matrix values;  // texel x pattern, orthogonal columns
+    Matrix light;   // pattern x (channel, component)
+};
+
+/// The first patterns of the tile, as many as keep its worst moment's error below what is asked.
+/// seen   what the tile's light is judged against at each moment
+Patterns principal_patterns(const Judge& judge, const TileRows& tile, const Matrix& gram, const Vector& squares,
+                            const Vector& seen, const LightmapSettings& settings) {
+    const Eigen::Index q = judge.components(), n = tile.count();
+    Matrix judged = judge.parts;
+    for (Eigen::Index m = 0; m < seen.size(); ++m) judged.middleCols(7 * m, 7) /= seen[m];
+    Matrix metric = judged * judged.transpose() / double(seen.size());
+    metric.diagonal().array() += 1e-10 * metric.trace();
+    const Matrix root = metric.llt().matrixL();
+    Matrix turned(3 * q, 3 * q);
+    for (Eigen::Index a = 0; a < 3; ++a)
+        for (Eigen::Index b = 0; b < 3; ++b)
+            turned.block(a * q, b * q, q, q) = root.transpose() * gram.block(a * q, b * q, q, q) * root;
+    const Eigen::SelfAdjointEigenSolver<Matrix> solver(turned);
+
+    Patterns result{Matrix(n, settings.most_patterns), Matrix(settings.most_patterns, 3 * q)};
+    Vector left = squares;
+    const Vector allowed = (settings.error * seen).cwiseAbs2() * double(3 * n);
+    Eigen::Index count = 0;
+    const Eigen::Index most = std::min<Eigen::Index>(settings.most_patterns, std::min(n, 3 * q));
+    while (count < most && (left.array() > allowed.array()).any()) {
+        const Eigen::Index at = 3 * q - 1 - count;
+        const double energy = solver.eigenvalues()[at];
+        if (!(energy > 1e-12 * solver.eigenvalues()[3 * q - 1])) break;
+        Vector direction(3 * q);
+        for (Eigen::Index c = 0; c < 3; ++c)
+            direction.segment(c * q, q) = root * solver.eigenvectors().col(at).segment(c * q, q);
+        if (direction.sum() < 0.0) direction = -direction;  // the solver's sign is chance
+        result.values.col(count) = tile.light * direction;
+        result.light.row(count) = (gram * direction / energy).transpose();
+        const Matrix shines = moments_of(result.light.row(count), judge.truth);
+        left -= energy * sum_channels(shines.cwiseAbs2());
+        ++count;
+    }
+    result.values.conservativeResize(Eigen::NoChange, count);
+    result.light.conservativeResize(count, Eigen::NoChange);
+    return result;
+}
+
+std::int16_t rounded(double value, int most) {
+    return std::int16_t(std::clamp<long>(std::lround(value), -most, most));
+}
+
+/// Rounds texels and patterns so that each pattern's rounding counts as little as asked when it shines most.
+CodedTile quantise(const Judge& judge, const TileRows& tile, const Patterns& patterns, const Vector& seen,
+                   const LightmapSettings& settings) {
+    CodedTile coded;
+    coded.patterns = std::size_t(patterns.values.cols());
+    const Vector per_channel = seen.cwiseInverse().replicate(3, 1);
+    const Matrix shines = moments_of(patterns.light, judge.truth) * per_channel.asDiagonal();
+    // A moment's weights, over what is seen then.
+    const double longest = (judge.truth.colwise().norm() * per_channel.asDiagonal()).maxCoeff();
+    for (Eigen::Index p = 0; p < patterns.values.cols(); ++p) {
+        const double peak = std::max(shines.row(p).cwiseAbs().maxCoeff(), 1e-30);
+        const double largest = patterns.values.col(p).cwiseAbs().maxCoeff();
+        const double step = std::max(settings.step / peak, largest / DayLightmap::kLargestValue);
+        for (Eigen::Index i = 0; i < tile.count(); ++i)
+            coded.values.push_back(rounded(patterns.values(i, p) / step, DayLightmap::kLargestValue));
+        const double typical = std::sqrt(patterns.values.col(p).squaredNorm() / double(tile.count()));
+        const double fine =
+            std::max(0.5 * settings.step / (typical * longest), patterns.light.row(p).cwiseAbs().maxCoeff() / 32767.0);
+        for (Eigen::Index i = 0; i < patterns.light.cols(); ++i)
+            coded.light.push_back(rounded(patterns.light(p, i) / fine, 32767));
+        coded.scales.push_back(float(step * fine * tile.brightness));
+    }
+    return coded;
+}
+
+/// What the tile's bytes show against the truth.
+void measure(const Judge& judge, const TileRows& tile, const Vector& seen, CodedTile& coded) {
+    const Eigen::Index q = judge.components(), k = Eigen::Index(coded.patterns);
+    Matrix light(k, 3 * q);
+    for (Eigen::Index p = 0; p < k; ++p)
+        for (Eigen::Index i = 0; i < 3 * q; ++i)
+            light(p, i) = double(coded.light[std::size_t(p * 3 * q + i)]) * double(coded.scales[std::size_t(p)]) /
+                          tile.brightness;
+    const Eigen::Index n = (tile.count() + kCheckedEvery - 1) / kCheckedEvery;
+    Matrix rows(n, 3 * q), values(n, k);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        rows.row(i) = tile.light.row(i * kCheckedEvery);
+        for (Eigen::Index p = 0; p < k; ++p)
+            values(i, p) = double(coded.values[std::size_t(p * tile.count() + i * kCheckedEvery)]);
+    }
+    const Matrix truth = moments_of(rows, judge.truth);
+    const Matrix found = (values * moments_of(light, judge.shown)).cwiseMax(0.0);
+    const Eigen::RowVectorXd squares = (found - truth).cwiseAbs2().colwise().sum();
+    coded.wrong = sum_channels(squares).cwiseQuotient(seen.cwiseAbs2());
+    coded.all = Vector::Constant(seen.size(), double(3 * n));
+}
+
+CodedTile encode_tile(const Judge& judge, const TileRows& tile, const LightmapSettings& settings) {
+    if (tile.count() == 0 || judge.components() == 0) return {};
+    const Matrix gram = tile.light.transpose() * tile.light;
+    const Vector squares = moment_squares(gram, judge.truth);
+    Vector seen = (squares / double(3 * tile.count())).cwiseMax(0.0).cwiseSqrt();
+    const double brightest = seen.maxCoeff();
+    if (!(brightest > 0.0)) return {};
+    // Below the darkest row that counts, light is judged as if it had that much.
+    seen = seen.cwiseMax(std::max(kDarkestMoment * brightest, double(kDarkestRow) / tile.brightness));
+    const Patterns patterns = principal_patterns(judge, tile, gram, squares, seen, settings);
+    CodedTile coded = quantise(judge, tile, patterns, seen, settings);
+    measure(judge, tile, seen, coded);
+    return coded;
+}
+
+/// Gaps between charts hold what the file's coder expects, which costs next to nothing.
+void fill_gaps(std::span<const std::uint32_t> row_of_pixel, int tile, std::size_t patterns, DayLightmap& map) {
+    const int x0 = tile % map.tiles_across() * map.kTileSide, y0 = tile / map.tiles_across() * map.kTileSide;
+    for (int y = y0; y < std::min(y0 + map.kTileSide, map.height); ++y)
+        for (int x = x0; x < std::min(x0 + map.kTileSide, map.width); ++x) {
+            const std::size_t pixel = std::size_t(y) * std::size_t(map.width) + std::size_t(x);
+            if (row_of_pixel[pixel] != ~0u) continue;
+            if (x > x0) map.exponents[pixel] = map.exponents[pixel - 1];
+            for (std::size_t p = 0; p < patterns; ++p) {
+                std::int16_t* plane = map.values.data() + p * map.texels();
+                plane[pixel] = predicted_texel(plane, map.width, map.kTileSide, x, y);
+            }
+        }
+}
+
+void place(const TileRows& tile, const CodedTile& coded, DayLightmap& map) {
+    map.scales.insert(map.scales.end(), coded.scales.begin(), coded.scales.end());
+    map.patterns.insert(map.patterns.end(), coded.light.begin(), coded.light.end());
+    for (std::size_t p = 0; p < coded.patterns; ++p)
+        for (std::size_t i = 0; i < tile.pixels.size(); ++i)
+            map.values[p * map.texels() + tile.pixels[i]] = coded.values[p * tile.pixels.size() + i];
+    for (std::size_t i = 0; i < tile.pixels.size(); ++i) map.exponents[tile.pixels[i]] = tile.exponents[i];
+}
+
+}  // namespace
+
+EncodedLightmap encode_lightmap(DayLightmap map, const LightRows& rows, std::span<const std::uint32_t> row_of_pixel,
+                                const LightmapSettings& settings) {
+    JudgedBasis basis = judge_basis(rows, settings.basis);
+    basis.stored = rounded(std::move(basis.stored));
+    const Judge judge{rows, basis, moment_weights(basis.dense, rows.moments),
+                      moment_weights(basis.stored, rows.moments), part_weights(basis.dense, rows.moments)};
+    std::vector<TileRows> tiles(map.tiles());
+    std::vector<CodedTile> coded(map.tiles());
+    tbb::parallel_for(std::size_t(0), tiles.size(), [&](std::size_t t) {
+        tiles[t] = tile_rows(judge, map, row_of_pixel, int(t));
+        coded[t] = encode_tile(judge, tiles[t], settings);
+        tiles[t].light.resize(0, 0);
     });
+
+    EncodedLightmap result;
+    result.keyframes_error = basis.error;
+    map.basis = basis.stored;
+    map.tile_patterns.clear();
+    for (const CodedTile& c : coded) map.tile_patterns.push_back(std::uint8_t(c.patterns));
+    map.scales.clear(), map.patterns.clear();
+    map.values.assign(std::size_t(map.slots()) * map.texels(), 0);
+    map.exponents.assign(map.texels(), 0);
+    Vector wrong = Vector::Zero(judge.moments()), all = Vector::Zero(judge.moments());
+    double pixels = 0.0;
+    for (std::size_t t = 0; t < tiles.size(); ++t) {
+        place(tiles[t], coded[t], map);
+        fill_gaps(row_of_pixel, int(t), coded[t].patterns, map);
+        if (coded[t].wrong.size() == 0) continue;
+        wrong += coded[t].wrong, all += coded[t].all;
+        result.worst_tile =
+            std::max(result.worst_tile, std::sqrt(coded[t].wrong.cwiseQuotient(coded[t].all).maxCoeff()));
+        result.mean_patterns += double(coded[t].patterns * tiles[t].pixels.size());
+        pixels += double(tiles[t].pixels.size());
+    }
+    if (pixels > 0.0) {
+        result.error = std::sqrt(wrong.cwiseQuotient(all).maxCoeff());
+        result.mean_patterns /= pixels;
+    }
+    map.error = result.error;
+    result.map = std::move(map);
     return result;
 }
 
-/// For every texel of the atlas the row that it shows; ~0u in gaps between charts.
-std::vector<std::uint32_t> row_of_atlas_texel(const Atlas& atlas, const Texels& texels,
-                                              const std::vector<std::uint32_t>& row_of_texel) {
+std::vector<std::uint32_t> rows_of_pixels(const Atlas& atlas, const Texels& texels,
+                                          std::span<const std::uint32_t> row_of_texel) {
     std::vector<std::uint32_t> result(std::size_t(atlas.width) * std::size_t(atlas.height), ~0u);
     tbb::parallel_for(std::size_t(0), atlas.charts.size(), [&](std::size_t id) {
         const PlacedChart& c = atlas.charts[id];
@@ -65,53 +304,6 @@ std::vector<std::uint32_t> row_of_atlas_texel(const Atlas& atlas, const Texels& 
                 if (from == kNoTexel) continue;  // all of it inside solid geometry: black
                 result[std::size_t(c.y + y) * std::size_t(atlas.width) + std::size_t(c.x + x)] = row_of_cell(from);
             }
-    });
-    return result;
-}
-
-}  // namespace
-
-std::vector<double> exposures(const DaySolution& day, std::span<const Keyframe> keyframes) {
-    std::vector<double> result;
-    for (const Keyframe& keyframe : keyframes)
-        result.push_back(std::max(day.mean_luminance(keyframe.hour, keyframe.scales), kDarkestExposure));
-    return result;
-}
-
-EncodedLightmap encode_lightmap(const Atlas& atlas, const Texels& texels, const DaySolution& day,
-                                std::span<const Keyframe> keyframes, const std::vector<bool>& usable,
-                                const TimeBasisSettings& settings) {
-    std::vector<std::uint32_t> rows, row_of_texel(texels.count(), ~0u);
-    for (std::uint32_t t = 0; t < texels.count(); ++t)
-        if (usable[t]) row_of_texel[t] = std::uint32_t(rows.size()), rows.push_back(t);
-    const DayRows light = day_rows(day, keyframes, rows);
-    const TimeBasis basis = fit_time_basis(light, settings);
-    const std::vector<Rgb> values = project_all(basis, light);
-    const std::vector<float> scale = component_scales(values, basis.components);
-
-    EncodedLightmap result;
-    DayLightmap& map = result.map;
-    map.width = atlas.width, map.height = atlas.height;
-    map.corner_uvs = atlas.corner_uvs;
-    map.basis = day_basis(basis, scale);
-    const std::size_t components = std::size_t(basis.components);
-    const std::vector<std::uint16_t> halves = to_halves(values, scale);
-
-    const std::vector<std::uint32_t> shown = row_of_atlas_texel(atlas, texels, row_of_texel);
-    map.components.assign(3 * components * shown.size(), 0);
-    for (std::size_t r = 0; r < components; ++r)
-        for (std::size_t i = 0; i < shown.size(); ++i)
-            if (shown[i] != ~0u)
-                std::copy_n(halves.begin() + std::ptrdiff_t(3 * (shown[i] * components + r)), 3,
-                            map.components.begin() + std::ptrdiff_t(3 * (r * shown.size() + i)));
-
-    result.error = measure_error(light, map.basis, [&](std::size_t row, std::span<const float> weights) {
-        Rgb sum(0.0f);
-        for (std::size_t r = 0; r < components; ++r) {
-            const std::uint16_t* h = halves.data() + 3 * (row * components + r);
-            sum += weights[r] * Rgb(glm::unpackHalf1x16(h[0]), glm::unpackHalf1x16(h[1]), glm::unpackHalf1x16(h[2]));
-        }
-        return glm::max(sum, Rgb(0.0f));
     });
     return result;
 }

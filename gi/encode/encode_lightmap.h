@@ -1,29 +1,38 @@
 #pragma once
-// The day's light at texels as the lightmap that the runtime reads.
+// The light of texels over the day as the lightmap that the runtime reads.
 #include "engine/baked/day_lightmap.h"
-#include "gi/encode/time_basis.h"
+#include "gi/encode/judged_basis.h"
 #include "gi/surface/texels.h"
-#include "gi/transport/day_gather/day_gather.h"
 
 namespace daylit {
 
+struct LightmapSettings {
+    int most_patterns = DayLightmap::kMostPatterns;  // of a tile
+    double error = 0.01;  // of a tile's worst moment, relative: where no further pattern is added
+    double step = 0.004;  // of texels, relative, at the moment when a pattern shines most
+    BasisSettings basis;
+};
+
 struct EncodedLightmap {
     DayLightmap map;
-    double error = 0.0;  // of the encoding alone, measured on the halves: worst keyframe, relative
+    double error = 0.0;          // worst moment's, root mean square over texels; see measure_error
+    double worst_tile = 0.0;     // the largest of a tile at a moment
+    double mean_patterns = 0.0;  // of a texel's tile
+    double keyframes_error = 0.0;
 };
 
-/// An hour of a solution, and the parts' scales in its weather.
-struct Keyframe {
-    std::size_t hour = 0;  // of DayColumns::hours
-    LightScales scales;
-};
+/// rows     of the texels that hold light
+/// row_of_pixel   per texel of the atlas (map.width * map.height): its row, or ~0u in gaps between charts
+/// map      width, height and corner_uvs are kept, the rest filled in
+/// Errors are relative to light as an eye would see it that is adapted to the tile: texels against their own brightness
+/// over the day, moments against the tile's brightness at that moment; measured on the bytes that are written, at every
+/// moment, the keyframes' error included.
+EncodedLightmap encode_lightmap(DayLightmap map, const LightRows& rows, std::span<const std::uint32_t> row_of_pixel,
+                                const LightmapSettings& settings);
 
-/// What the eye is adapted to at each keyframe, lux: errors are judged against it.
-std::vector<double> exposures(const DaySolution& day, std::span<const Keyframe> keyframes);
-
-/// usable   texels that hold light; the rest of each chart's grid is filled from the nearest of these in the chart
-EncodedLightmap encode_lightmap(const Atlas& atlas, const Texels& texels, const DaySolution& day,
-                                std::span<const Keyframe> keyframes, const std::vector<bool>& usable,
-                                const TimeBasisSettings& settings);
+/// For every texel of the atlas its row; the rest of each chart's grid takes the nearest that has one.
+/// row_of_texel   ~0u for texels without light (inside solid geometry)
+std::vector<std::uint32_t> rows_of_pixels(const Atlas& atlas, const Texels& texels,
+                                          std::span<const std::uint32_t> row_of_texel);
 
 }  // namespace daylit

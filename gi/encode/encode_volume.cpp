@@ -12,6 +12,8 @@ namespace daylit {
 namespace {
 
 constexpr std::size_t kCoefficients = glsl::kShCoefficients;
+// Luminance times pi to which displays adapt at the least (the floor of auto_ev).
+constexpr double kDarkestExposure = 1e-4 * kPi;
 using Sh = std::array<Rgb, kCoefficients>;
 
 const std::array<Vec3, 6> kSides = {Vec3(1, 0, 0),  Vec3(-1, 0, 0), Vec3(0, 1, 0),
@@ -53,7 +55,8 @@ DayRows day_rows(const ProbeDay& light, std::size_t free, const DaySolution& day
     DayRows rows;
     rows.count = kSides.size() * free;
     for (const Keyframe& keyframe : keyframes) rows.hours.push_back(day.basis.columns.hours[keyframe.hour]);
-    rows.exposure = exposures(day, keyframes);
+    for (const Keyframe& keyframe : keyframes)
+        rows.exposure.push_back(std::max(day.mean_luminance(keyframe.hour, keyframe.scales), kDarkestExposure));
     rows.read = [&light](std::size_t row, Rgb* values) {
         for (std::size_t k = 0; k < light.keyframes; ++k)
             values[k] = irradiance(light.at(row / kSides.size(), k), kSides[row % kSides.size()]);

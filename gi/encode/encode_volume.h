@@ -1,11 +1,17 @@
 #pragma once
 // The day's radiance at probes as the volume that the runtime reads.
 #include "engine/baked/irradiance_volume.h"
-#include "gi/encode/encode_lightmap.h"
+#include "gi/encode/time_basis.h"
 #include "gi/surface/probe_grid.h"
 #include "gi/transport/day_gather/day_gather.h"
 
 namespace daylit {
+
+/// An hour of a solution, and the parts' scales in its weather.
+struct Keyframe {
+    std::size_t hour = 0;  // of DayColumns::hours
+    LightScales scales;
+};
 
 struct EncodedVolume {
     IrradianceVolume volume;

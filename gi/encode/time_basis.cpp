@@ -79,8 +79,8 @@ TimeBasis fit_time_basis(const DayRows& rows, const TimeBasisSettings& settings)
     TimeBasis basis{rows.hours, rows.exposure, 0, {}, 0.0};
     Eigen::VectorXd left = g.diagonal();
     basis.error = worst_keyframe(left, g.diagonal());
-    while (basis.components < std::min<Eigen::Index>(settings.max_components, keyframes) && basis.error > settings.error &&
-           values[basis.components] > 1e-14 * values[0]) {
+    while (basis.components < std::min<Eigen::Index>(settings.max_components, keyframes) &&
+           basis.error > settings.error && values[basis.components] > 1e-14 * values[0]) {
         Eigen::VectorXd v = vectors.col(basis.components);
         if (v.sum() < 0.0) v = -v;  // the solver's sign is chance
         left -= values[basis.components] * v.cwiseAbs2();

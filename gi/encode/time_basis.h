@@ -18,8 +18,9 @@ struct TimeBasisSettings {
 /// The light of all rows at all keyframes, asked for row by row (called from several threads).
 struct DayRows {
     std::size_t count = 0;
-    std::vector<double> hours;     // keyframes
-    std::vector<double> exposure;  // per keyframe, lux: the light that the eye is adapted to; errors are judged against it
+    std::vector<double> hours;  // keyframes
+    std::vector<double>
+        exposure;  // per keyframe, lux: the light that the eye is adapted to; errors are judged against it
     std::function<void(std::size_t row, Rgb* keyframes)> read;  // lux
 };
 
@@ -28,12 +29,12 @@ struct TimeBasis {
     std::vector<double> exposure;
     int components = 0;
     std::vector<double> vectors;  // components * keyframes, orthonormal rows over light divided by exposure
-    double error = 0.0;           // relative error of the worst keyframe: RMS over rows, each judged at its own brightness
+    double error = 0.0;  // relative error of the worst keyframe: RMS over rows, each judged at its own brightness
 };
 
 /// Principal components over time (Bahnsen et al.), exact and streaming: only the keyframes x keyframes Gram matrix is
-/// kept, summed in doubles in fixed order. Columns are divided by exposure, so that dusk counts as much as noon, and rows by their
-/// own mean over the day, so that a dark room counts as much as the courtyard.
+/// kept, summed in doubles in fixed order. Columns are divided by exposure, so that dusk counts as much as noon, and
+/// rows by their own mean over the day, so that a dark room counts as much as the courtyard.
 TimeBasis fit_time_basis(const DayRows& rows, const TimeBasisSettings& settings);
 
 /// The components of one row; components = basis.components.

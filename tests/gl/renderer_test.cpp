@@ -266,17 +266,28 @@ TEST_F(RendererTest, a_constant_lightmap_is_shown_exactly_gl) {
     baked.lightmap.emplace();
     DayLightmap& map = *baked.lightmap;
     map.width = map.height = 4;
-    map.basis = {{6.0, 18.0}, 2, {1, 0, 0, 1}};  // the first component at 6, the second at 18
-    for (const float lux : {512.0f, 2048.0f})
-        map.components.insert(map.components.end(), 4 * 4 * 3, glm::packHalf1x16(lux));
+    map.basis.hours = {6.0, 18.0};
+    map.basis.skies = 2, map.basis.sky_level = {1, 1};
+    map.basis.components = 2;
+    map.basis.curves = {1, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0};  // the first at 6, the second at 18
+    map.tile_patterns = {2};
+    map.scales = {1, 2};
+    map.patterns = {1, 0, 1, 0, 1, 0, 0, 1, 0, 1, 0, 1};
+    map.values.assign(4 * 4, 512);
+    map.values.insert(map.values.end(), 4 * 4, 1024);
+    map.exponents.assign(4 * 4, 0);
     map.corner_uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
     Renderer renderer(scene, &baked);
-    renderer.set_lighting({{}, {Image(1, 1)}});
+    renderer.set_lighting({{}, {Image(1, 1)}, {.clear = 1.0f}});
     FrameSettings frame = frame_of(from_above(1.0f), 8, 8, Layer::Indirect);
     frame.hour = 12.0;
     EXPECT_TRUE(pass(renderer.draw(frame), "relight").ran);
     EXPECT_LT(relative(renderer.read_radiance().at(3, 3).g, 0.5 * 1280.0 / kPi), 1e-5);
     EXPECT_FALSE(pass(renderer.draw(frame), "relight").ran);
+    renderer.set_lighting({{}, {Image(1, 1)}, {.clear = 0.5f}});
+    EXPECT_TRUE(pass(renderer.draw(frame), "relight").ran);
+    EXPECT_LT(relative(renderer.read_radiance().at(3, 3).g, 0.25 * 1280.0 / kPi), 1e-5);
+    renderer.set_lighting({{}, {Image(1, 1)}, {.clear = 1.0f}});
     frame.hour = 18.0;
     frame.show = Layer::Lightmap;
     EXPECT_TRUE(pass(renderer.draw(frame), "relight").ran);

@@ -48,7 +48,8 @@ struct Lookup {
 template <class Wanted>
 std::vector<Lookup> look_up(const Scene& scene, const Baked& baked, double hour, const Wanted& wanted) {
     const WorldMesh mesh = world_mesh(scene, pose_scene(scene), Part::Static);
-    const std::vector<float> weights = baked.lightmap->basis.weights(hour);
+    const LightScales scales = LightModel(baked.light, placed_lights(scene, pose_scene(scene))).at(hour).scales;
+    const std::vector<Rgb> light = baked.lightmap->tile_light(baked.lightmap->basis.weights(scales, hour));
     std::vector<Lookup> found;
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
         std::array<Vec3, 3> p;
@@ -59,7 +60,7 @@ std::vector<Lookup> look_up(const Scene& scene, const Baked& baked, double hour,
             if (!wanted(place, n)) continue;
             const Vec2 uv = w.x * baked.lightmap->corner_uvs[3 * t] + w.y * baked.lightmap->corner_uvs[3 * t + 1] +
                             w.z * baked.lightmap->corner_uvs[3 * t + 2];
-            found.push_back({{place, n}, baked.lightmap->irradiance(uv, weights)});
+            found.push_back({{place, n}, baked.lightmap->irradiance(uv, light)});
         }
     }
     return found;

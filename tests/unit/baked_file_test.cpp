@@ -4,8 +4,11 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <glm/gtc/packing.hpp>
 
+#include "engine/baked/integer_coding.h"
+#include "engine/baked/light_basis_bytes.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 
@@ -37,7 +40,7 @@ WorldMesh one_triangle() {
     return mesh;
 }
 
-/// 2 x 2 texels, two components, three keyframes; every number below is looked up by hand in the tests.
+/// 2 x 2 texels, two patterns, two components, three keyframes; every number below is looked up by hand in the tests.
 /// The frozen file holds exactly this.
 Baked small_bake() {
     Baked baked;
@@ -52,11 +55,21 @@ Baked small_bake() {
     baked.geometry_hash = 0x0123456789ABCDEFull;
     DayLightmap& map = baked.lightmap.emplace();
     map.width = map.height = 2;
-    map.basis = {{6.0, 12.0, 18.0}, 2, {0.0f, 1000.0f, 0.0f, 1.0f, 1.0f, 5.0f}};
-    for (float value : {1.0f, 2.0f, 3.0f, 4.0f,      // component 0, texels in row order
-                        10.0f, 0.0f, 0.0f, -1.0f})  // component 1
-        for (int channel = 0; channel < 3; ++channel)
-            map.components.push_back(glm::packHalf1x16(value * float(1 << channel)));
+    LightBasis& basis = map.basis;
+    basis.hours = {6.0, 12.0, 18.0};
+    basis.suns = 1, basis.skies = 3;
+    basis.sky_level = {1.0f, 100.0f, 1.0f};
+    basis.components = 2;
+    basis.curves = {0.5f, 1.0f, 2.0f, 1.0f, 3.0f, 0.0f, 0.0f, 0.0f, 0.0f,    // S, K at three hours, O, G, N, V, C
+                    0.0f, -1.0f, 0.0f, 5.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.25f};
+    map.tile_patterns = {2};
+    map.scales = {1.0f, 0.5f};
+    map.patterns = {1, 0, 2, 0, 4, 0,   // the first shines as the first component: red, twice as much green, four times
+                    0, 2, 0, 4, 0, 8};  // as much blue; the other as half the second
+    map.values = {1, 2, 3, 16,          // pattern 0, texels in row order; the last is a quarter of this
+                  10, 0, 0, -4};        // pattern 1
+    map.exponents = {0, 0, 0, 1};
+    map.error = 0.01;
     map.corner_uvs = {{0.25f, 0.25f}, {0.75f, 0.25f}, {0.25f, 0.75f}};
     baked.plan = {{"lightmap", true, "static surfaces", 0, 0.125}, {"volume", false, "no dynamic node", 0, -1.0}};
     return baked;
@@ -88,7 +101,15 @@ void expect_same(const Baked& a, const Baked& b) {
     ASSERT_TRUE(a.lightmap && b.lightmap);
     EXPECT_EQ(a.lightmap->width, b.lightmap->width);
     EXPECT_EQ(a.lightmap->height, b.lightmap->height);
-    EXPECT_EQ(a.lightmap->components, b.lightmap->components);
+    EXPECT_EQ(a.lightmap->tile_patterns, b.lightmap->tile_patterns);
+    EXPECT_EQ(a.lightmap->scales, b.lightmap->scales);
+    EXPECT_EQ(a.lightmap->patterns, b.lightmap->patterns);
+    EXPECT_EQ(a.lightmap->values, b.lightmap->values);
+    EXPECT_EQ(a.lightmap->exponents, b.lightmap->exponents);
+    EXPECT_EQ(a.lightmap->error, b.lightmap->error);
+    EXPECT_EQ(a.lightmap->basis.suns, b.lightmap->basis.suns);
+    EXPECT_EQ(a.lightmap->basis.skies, b.lightmap->basis.skies);
+    EXPECT_EQ(a.lightmap->basis.sky_level, b.lightmap->basis.sky_level);
     EXPECT_EQ(a.lightmap->corner_uvs, b.lightmap->corner_uvs);
     EXPECT_EQ(a.lightmap->basis.hours, b.lightmap->basis.hours);
     EXPECT_EQ(a.lightmap->basis.components, b.lightmap->basis.components);
@@ -96,6 +117,8 @@ void expect_same(const Baked& a, const Baked& b) {
 }
 
 TEST_F(BakedFile, RoundTripsAndCountsItsBytes) {
+    // To freeze a new version: DAYLIT_FREEZE=tests/frozen/version_N.daylit test_unit --gtest_filter='BakedFile.RoundTrips*'
+    if (const char* frozen = std::getenv("DAYLIT_FREEZE")) write_baked(frozen, small_bake());
     write_baked(path(), small_bake());
     const Baked read = read_baked(path());
     expect_same(small_bake(), read);
@@ -178,13 +201,22 @@ TEST_F(BakedFile, ImpossibleContentsAreRefused) {
     };
     expect_refused([](Baked& b) { b.lightmap->basis.hours = {6.0, 6.0, 18.0}; });
     expect_refused([](Baked& b) { b.lightmap->basis.hours = {6.0, 12.0, 25.0}; });
-    expect_refused([](Baked& b) { b.lightmap->basis.curves[2] = std::nanf(""); });
-    expect_refused([](Baked& b) { b.lightmap->basis.curves.pop_back(); });
-    expect_refused([](Baked& b) { b.lightmap->components[3] = 0x7C00; });  // infinity
-    expect_refused([](Baked& b) { b.lightmap->components.pop_back(); });
+    expect_refused([](Baked& b) { b.lightmap->basis.curves[4] = std::nanf(""); });
+    expect_refused([](Baked& b) { b.lightmap->basis.sky_level[0] = 0.0f; });
+    expect_refused([](Baked& b) { b.lightmap->basis.suns = 2, b.lightmap->basis.curves.resize(20); });
+    expect_refused([](Baked& b) {
+        b.lightmap->tile_patterns[0] = 17, b.lightmap->scales.resize(17);
+        b.lightmap->patterns.resize(6 * 17), b.lightmap->values.resize(4 * 17);
+    });
+    expect_refused([](Baked& b) { b.lightmap->tile_patterns.push_back(0); });
+    expect_refused([](Baked& b) { b.lightmap->values[3] = 2048; });
+    expect_refused([](Baked& b) { b.lightmap->exponents[3] = 8; });
+    expect_refused([](Baked& b) { b.lightmap->exponents.pop_back(); });
+    expect_refused([](Baked& b) { b.lightmap->scales[0] = INFINITY; });
+    expect_refused([](Baked& b) { b.lightmap->scales.pop_back(); });
+    expect_refused([](Baked& b) { b.lightmap->width = 0; });
     expect_refused([](Baked& b) { b.lightmap->corner_uvs[1].x = 1.5f; });
     expect_refused([](Baked& b) { b.lightmap->corner_uvs.pop_back(); });
-    expect_refused([](Baked& b) { b.lightmap->width = 16384, b.lightmap->height = 16384; });
     expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->spacing = 0.0f; });
     expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->size[1] = 0; });
     expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->size = {4096, 4096, 4096}; });
@@ -214,8 +246,41 @@ TEST_F(BakedFile, FrozenVersion1Loads) {
     expect_same(small_bake(), read_baked(fs::path(DAYLIT_TESTS_DIR) / "frozen" / "version_1.daylit"));
 }
 
+TEST_F(BakedFile, PartsThatAreNotWantedStayUnread) {
+    write_baked(path(), small_bake());
+    auto damaged = read_file(path());
+    damaged.back() ^= 1u;  // in the lightmap's texels
+    write_file(path(), damaged);
+    EXPECT_THROW(read_baked(path()), Error);
+    const Baked read = read_baked(path(), {.lightmap = false});
+    EXPECT_FALSE(read.lightmap);
+    EXPECT_EQ(read.light, small_bake().light);
+}
+
+TEST(LightBasisBytes, RoundingAgainChangesNothing) {
+    LightBasis basis = small_bake().lightmap->basis;
+    for (std::size_t i = 0; i < basis.curves.size(); ++i) basis.curves[i] += 0.1f * float(i);
+    const LightBasis once = rounded(basis);
+    EXPECT_EQ(rounded(once).curves, once.curves);
+    for (std::size_t i = 0; i < basis.curves.size(); ++i) EXPECT_NEAR(once.curves[i], basis.curves[i], 2e-4f);
+    ByteWriter w;
+    put_basis(w, once);
+    ByteReader r(w.take(), "a file", "a section");
+    EXPECT_EQ(get_basis(r).curves, once.curves);
+}
+
+TEST(IntegerCoding, EveryNumberComesBack) {
+    std::vector<std::int16_t> values;
+    for (int v = -32768; v < 32768; v += 7) values.push_back(std::int16_t(v));
+    values.push_back(32767);
+    ByteWriter w;
+    put_integers(w, values);
+    ByteReader r(w.take(), "a file", "a section");
+    EXPECT_EQ(get_integers(r, values.size()), values);
+}
+
 TEST(DayBasis, WeightsAreLinearBetweenKeyframesAndHeldOutside) {
-    const DayBasis basis = small_bake().lightmap->basis;
+    const DayBasis basis{{6.0, 12.0, 18.0}, 2, {0.0f, 1000.0f, 0.0f, 1.0f, 1.0f, 5.0f}};
     EXPECT_EQ(basis.weights(12.0), (std::vector<float>{1000.0f, 1.0f}));
     EXPECT_EQ(basis.weights(9.0), (std::vector<float>{500.0f, 1.0f}));
     EXPECT_EQ(basis.weights(16.5), (std::vector<float>{250.0f, 4.0f}));
@@ -224,7 +289,7 @@ TEST(DayBasis, WeightsAreLinearBetweenKeyframesAndHeldOutside) {
 }
 
 TEST(DayBasis, HoursWrap) {
-    const DayBasis basis = small_bake().lightmap->basis;
+    const DayBasis basis{{6.0, 12.0, 18.0}, 2, {0.0f, 1000.0f, 0.0f, 1.0f, 1.0f, 5.0f}};
     EXPECT_EQ(basis.weights(9.0 + 48.0), basis.weights(9.0));
     EXPECT_EQ(basis.weights(9.0 - 24.0), basis.weights(9.0));
     EXPECT_EQ(basis.weights(-1e-30), basis.weights(0.0));
@@ -237,20 +302,32 @@ TEST(DayBasis, OneKeyframeNeverChanges) {
 
 TEST(DayLightmap, FetchesBilinearly) {
     const DayLightmap map = *small_bake().lightmap;
-    const std::vector<float> first = {1.0f, 0.0f};
-    EXPECT_EQ(map.irradiance({0.25f, 0.25f}, first), Rgb(1, 2, 4));   // texel centre
+    const std::vector<Rgb> first = map.tile_light(std::vector<Rgb>{Rgb(1.0f), Rgb(0.0f)});
+    EXPECT_EQ(map.irradiance({0.25f, 0.25f}, first), Rgb(1, 2, 4));  // texel centre
     EXPECT_EQ(map.irradiance({0.75f, 0.75f}, first), Rgb(4, 8, 16));
     EXPECT_EQ(map.irradiance({0.5f, 0.5f}, first), Rgb(2.5f, 5, 10));  // mean of the four
     EXPECT_EQ(map.irradiance({0.5f, 0.25f}, first), Rgb(1.5f, 3, 6));
-    EXPECT_EQ(map.irradiance({0.0f, 0.0f}, first), Rgb(1, 2, 4));     // held at the border
+    EXPECT_EQ(map.irradiance({0.0f, 0.0f}, first), Rgb(1, 2, 4));  // held at the border
 }
 
 TEST(DayLightmap, IsNeverNegative) {
     const DayLightmap map = *small_bake().lightmap;
-    const std::vector<float> weights = {0.0f, 1.0f};
-    EXPECT_EQ(map.irradiance({0.75f, 0.75f}, weights), Rgb(0.0f));
+    const std::vector<Rgb> second = map.tile_light(std::vector<Rgb>{Rgb(0.0f), Rgb(1.0f)});
+    EXPECT_EQ(map.irradiance({0.75f, 0.75f}, second), Rgb(0.0f));
     // The negative texel counts as black in the mean: 10 / 4.
-    EXPECT_EQ(map.irradiance({0.5f, 0.5f}, weights), Rgb(2.5f, 5, 10));
+    EXPECT_EQ(map.irradiance({0.5f, 0.5f}, second), Rgb(2.5f, 5, 10));
+}
+
+TEST(DayLightmap, EveryPartOfLightHasItsOwnScale) {
+    const DayLightmap map = *small_bake().lightmap;
+    const auto at = [&](const LightScales& scales, double hour) {
+        return map.irradiance({0.25f, 0.25f}, map.tile_light(map.basis.weights(scales, hour)));
+    };
+    // Pattern 0 (value 1) shines with component 0, pattern 1 (value 10) with component 1; the lamps give 0.25 of this.
+    EXPECT_EQ(at({.evening = 0.0f}, 3.0), Rgb(2.5f, 5, 10));
+    EXPECT_EQ(at({.sun = Rgb(2, 0, 0), .evening = 0.0f}, 3.0), Rgb(3.5f, 5, 10));
+    EXPECT_EQ(at({.clear = 1.0f, .evening = 0.0f}, 12.0), Rgb(2.5f, 5, 10) + 200.0f * Rgb(1, 2, 4));
+    EXPECT_EQ(at({.overcast = Rgb(0, 1, 0), .evening = 0.0f}, 12.0), Rgb(2.5f, 5 + 6, 10));
 }
 
 }  // namespace

@@ -1,0 +1,17 @@
+#pragma once
+// Small integers as bytes that a general compressor makes much of: signs folded in, low bytes apart from high ones.
+#include <cstdint>
+#include <vector>
+
+#include "engine/baked/bytes.h"
+
+namespace daylit {
+
+void put_integers(ByteWriter& w, const std::vector<std::int16_t>& values);
+std::vector<std::int16_t> get_integers(ByteReader& r, std::size_t count);
+
+/// What a texel of a plane is expected to be from those left of it and above it in its tile (the median predictor of
+/// Weinberger, Seroussi and Sapiro, LOCO-I, 2000). Tiles are squares of `side` texels from the plane's corner.
+std::int16_t predicted_texel(const std::int16_t* plane, int width, int side, int x, int y);
+
+}  // namespace daylit

@@ -1,0 +1,160 @@
+// Tiles of few patterns: as wrong as they say, for every part of light by itself, without seams.
+#include "gi/encode/encode_lightmap.h"
+
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include <cmath>
+
+namespace daylit {
+namespace {
+
+constexpr int kSide = 40;  // texels: tiles that are whole and tiles that are not
+constexpr std::size_t kHours = 30;
+
+/// Light with as many components as columns: the sun's answer moves over the map, the sky's shades from top to bottom,
+/// the right half lies in a room a thousand times darker.
+struct Given {
+    std::vector<Rgb> rows;
+    LightRows light;
+    std::vector<std::uint32_t> row_of_pixel;
+};
+
+Given moving_light() {
+    Given given;
+    LightBasis& basis = given.light.light;
+    for (std::size_t k = 0; k < kHours; ++k) basis.hours.push_back(4.0 + 0.5 * double(k));
+    basis.suns = basis.skies = kHours;
+    basis.sky_level.assign(kHours, 1.0f);
+    basis.components = int(basis.columns());
+    basis.curves.assign(basis.columns() * basis.columns(), 0.0f);
+    for (std::size_t c = 0; c < basis.columns(); ++c) basis.curves[c * basis.columns() + c] = 1.0f;
+    const auto height_at = [](double day) { return std::max(0.0, std::sin(kPi * day)); };
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) {
+            const double u = double(x) / kSide, v = double(y) / kSide, open = x < kSide / 2 ? 1.0 : 1e-3;
+            for (const bool sky : {false, true})
+                for (std::size_t k = 0; k < kHours; ++k) {
+                    const double day = double(k) / (kHours - 1), off = u - day;
+                    const double light =
+                        sky ? 20000.0 * height_at(day) * (0.3 + 0.7 * v) + 1e-3 : 0.3 * std::exp(-4.0 * off * off);
+                    given.rows.push_back(float(open * light) * (sky ? Rgb(0.8f, 1.0f, 1.3f) : Rgb(1.0f, 0.9f, 0.7f)));
+                }
+            for (std::size_t s = 0; s < kStillColumns; ++s)
+                given.rows.push_back(float(open) * Rgb(float(0.1 + u * double(s)), float(0.2 + v), 0.3f));
+            given.row_of_pixel.push_back(std::uint32_t(given.row_of_pixel.size()));
+        }
+    given.light.rows = given.rows;
+    for (std::size_t k = 0; k < kHours; ++k) {
+        const double height = height_at(double(k) / (kHours - 1));
+        const LightScales clear = {.sun = Rgb(float(90000.0 * height)),
+                                   .clear = 1.0f,
+                                   .ground = Rgb(float(20000.0 * height)),
+                                   .night = 1.0f,
+                                   .evening = 1.0f};
+        given.light.moments.push_back({basis.hours[k], clear, 10000.0 * height + 1.0});
+        if (k % 5 == 0)
+            given.light.moments.push_back({basis.hours[k],
+                                           {.overcast = Rgb(float(9000.0 * height + 1.0)), .night = 1.0f},
+                                           3000.0 * height + 1.0});
+    }
+    return given;
+}
+
+EncodedLightmap encoded(const Given& given, const LightmapSettings& settings = {}) {
+    DayLightmap shape;
+    shape.width = shape.height = kSide;
+    return encode_lightmap(shape, given.light, given.row_of_pixel, settings);
+}
+
+Vec2 centre(int x, int y) {
+    return (Vec2(x, y) + 0.5f) / float(kSide);
+}
+
+Rgb truth(const Given& given, std::size_t row, const LightScales& scales, double hour) {
+    const std::vector<Rgb> weights = given.light.light.weights(scales, hour);
+    Rgb sum(0.0f);
+    for (std::size_t r = 0; r < weights.size(); ++r) sum += given.light.row(row)[r] * weights[r];
+    return sum;
+}
+
+/// The largest error of a texel, relative to its own light.
+double worst_error(const Given& given, const DayLightmap& map, const LightScales& scales, double hour) {
+    const std::vector<Rgb> light = map.tile_light(map.basis.weights(scales, hour));
+    double worst = 0.0;
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) {
+            const Rgb expected = truth(given, std::size_t(y * kSide + x), scales, hour);
+            const Rgb found = map.irradiance(centre(x, y), light);
+            for (int c = 0; c < 3; ++c)
+                worst = std::max(worst, double(std::abs(found[c] - expected[c]) / luminance(expected)));
+        }
+    return worst;
+}
+
+TEST(EncodeLightmap, TexelsAreRightAtEveryMoment) {
+    const Given given = moving_light();
+    const EncodedLightmap result = encoded(given);
+    EXPECT_LT(result.error, 0.015);
+    EXPECT_LE(result.map.slots(), DayLightmap::kMostPatterns);
+    EXPECT_LT(result.map.basis.hours.size(), kHours);
+    // In sunlit rooms and dark ones alike; so no seam between tiles is larger than twice this.
+    for (const Moment& m : given.light.moments) {
+        if (m.scales.sun.x <= 5000.0f && m.scales.overcast.x <= 500.0f) continue;
+        EXPECT_LT(worst_error(given, result.map, m.scales, m.hour), 0.06) << m.hour;
+    }
+}
+
+TEST(EncodeLightmap, WeatherAndTintNeedNoNewBake) {
+    const Given given = moving_light();
+    const DayLightmap map = encoded(given).map;
+    const LightScales red_sun = {
+        .sun = Rgb(60000, 20000, 5000), .clear = 0.4f, .overcast = Rgb(4000.0f), .evening = 0.5f};
+    EXPECT_LT(worst_error(given, map, red_sun, 11.0), 0.06);
+    EXPECT_LT(worst_error(given, map, {.clear = 1.0f, .evening = 0.0f}, 11.0), 0.06);
+}
+
+TEST(EncodeLightmap, WhatItSaysIsWhatIsMeasured) {
+    const Given given = moving_light();
+    LightmapSettings coarse;
+    coarse.most_patterns = 2, coarse.error = 0.0;
+    const EncodedLightmap few = encoded(given, coarse), many = encoded(given);
+    EXPECT_EQ(few.map.slots(), 2);
+    EXPECT_GT(few.error, 2.0 * many.error);
+    EXPECT_GE(few.worst_tile, few.error);
+}
+
+TEST(EncodeLightmap, LightThatOnlyDimsTakesOnePattern) {
+    Given given = moving_light();
+    const std::size_t stride = given.light.stride();
+    for (std::size_t i = stride; i < given.rows.size(); ++i)
+        given.rows[i] = given.rows[i % stride] * (1.0f + float(i / stride % 7));
+    given.light.rows = given.rows;
+    EXPECT_EQ(encoded(given).map.slots(), 1);
+}
+
+TEST(EncodeLightmap, GapsAndBlackTilesTakeNoPatterns) {
+    Given given = moving_light();
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < DayLightmap::kTileSide; ++x) given.row_of_pixel[std::size_t(y * kSide + x)] = ~0u;
+    const DayLightmap map = encoded(given).map;
+    EXPECT_EQ(map.tile_patterns[0], 0);
+    EXPECT_GT(map.tile_patterns[1], 0);
+    std::fill(given.rows.begin(), given.rows.end(), Rgb(0.0f));
+    given.light.rows = given.rows;
+    EXPECT_EQ(encoded(given).map.slots(), 0);
+}
+
+TEST(EncodeLightmap, SameTexelsForAnyNumberOfThreads) {
+    const Given given = moving_light();
+    DayLightmap one, five;
+    tbb::task_arena(1).execute([&] { one = encoded(given).map; });
+    tbb::task_arena(5).execute([&] { five = encoded(given).map; });
+    EXPECT_EQ(one.values, five.values);
+    EXPECT_EQ(one.patterns, five.patterns);
+    EXPECT_EQ(one.scales, five.scales);
+    EXPECT_EQ(one.basis.curves, five.basis.curves);
+}
+
+}  // namespace
+}  // namespace daylit
