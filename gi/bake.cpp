@@ -18,6 +18,17 @@ std::vector<bool> in_the_open(const Texels& texels, const GatherHits& hits) {
     return open;
 }
 
+/// Texels whose own light is shown: those in the open, and, black, those so deep under other surfaces that nothing
+/// visible is interpolated from them. The rest shows its nearest neighbour's.
+std::vector<bool> shown(const Atlas& atlas, const Texels& texels, const GatherHits& hits,
+                        const std::vector<bool>& open) {
+    std::vector<bool> partly_open(texels.count());
+    for (std::size_t t = 0; t < partly_open.size(); ++t) partly_open[t] = hits.usable[t] != 0;
+    std::vector<bool> result = away_from(atlas, texels, partly_open);
+    for (std::size_t t = 0; t < result.size(); ++t) result[t] = result[t] || open[t];
+    return result;
+}
+
 std::string describe(const EncodedLightmap& encoded, const Texels& texels, const BakePlan& plan,
                      const DaySolution& day) {
     char error[32], patterns[160];
@@ -30,11 +41,11 @@ std::string describe(const EncodedLightmap& encoded, const Texels& texels, const
            " components (error " + error + "), " + std::to_string(day.bounces) + " bounces; " + patterns;
 }
 
-/// Each texel is its own row, but those inside solid geometry have none.
-std::vector<std::uint32_t> rows_of_texels(const std::vector<bool>& open) {
-    std::vector<std::uint32_t> result(open.size(), ~0u);
-    for (std::uint32_t t = 0; t < open.size(); ++t)
-        if (open[t]) result[t] = t;
+/// Each texel that is shown is its own row.
+std::vector<std::uint32_t> rows_of_texels(const std::vector<bool>& shown) {
+    std::vector<std::uint32_t> result(shown.size(), ~0u);
+    for (std::uint32_t t = 0; t < shown.size(); ++t)
+        if (shown[t]) result[t] = t;
     return result;
 }
 
@@ -98,7 +109,7 @@ void bake_light(const Scene& scene, const WorldMesh& mesh, std::span<const Place
         shape.width = atlas.width, shape.height = atlas.height, shape.corner_uvs = atlas.corner_uvs;
         const LightRows rows{light_basis(day.basis), 1, day.texels, moments(day, light)};
         EncodedLightmap encoded = encode_lightmap(std::move(shape), rows,
-                                                  rows_of_pixels(atlas, texels, rows_of_texels(open)), {});
+                                                  rows_of_pixels(atlas, texels, rows_of_texels(shown(atlas, texels, hits, open))), {});
         note(baked.plan, "lightmap", describe(encoded, texels, plan, day), encoded.error);
         baked.lightmap = std::move(encoded.map);
     }

@@ -48,4 +48,7 @@ Vec3 geometric_normal(const WorldMesh& mesh, std::uint32_t triangle);
 /// search over four neighbours, lower indices first; kNoTexel everywhere when none is.
 std::vector<std::uint32_t> nearest_usable(int nx, int ny, const std::vector<bool>& usable);
 
+/// Texels that are neither marked themselves nor beside a marked one, across a corner included, in their chart.
+std::vector<bool> away_from(const Atlas& atlas, const Texels& texels, const std::vector<bool>& marked);
+
 }  // namespace daylit

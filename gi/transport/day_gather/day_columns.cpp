@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/baked/light_basis.h"
+
 namespace daylit {
 namespace {
 
@@ -20,6 +22,39 @@ Rgb mean_of_bin(int bin, int samples, const Radiance& radiance) {
         weights += samples * weight;
     }
     return Rgb(sum / weights);
+}
+
+/// Hours at which the sky is computed: every twenty minutes while the sun is high, every ten at dusk and dawn, when it
+/// dims by half in that time; between them a cubic differs by a thousandth.
+std::vector<std::size_t> sky_keyframes(const Day& day, const std::vector<double>& hours) {
+    constexpr double kHigh = 8.0 * kDegree, kHighStep = 1.0 / 3.0, kLowStep = 1.0 / 6.0, kSlack = 1e-6;
+    std::vector<std::size_t> result;
+    for (std::size_t k = 0; k < hours.size(); ++k) {
+        const double step = sun_position(day, hours[k]).apparent_elevation > kHigh ? kHighStep : kLowStep;
+        const double since = result.empty() ? step : hours[k] - hours[result.back()];
+        if (since > step - kSlack || k + 1 == hours.size() || hours[k + 1] - hours[result.back()] > step + kSlack)
+            result.push_back(k);
+    }
+    return result;
+}
+
+/// K at every hour.
+std::vector<std::vector<Rgb>> clear_skies(const LightModel& model, const std::vector<double>& hours) {
+    const std::vector<std::size_t> keyframes = sky_keyframes(model.settings().day, hours);
+    std::vector<double> at;
+    for (std::size_t k : keyframes) at.push_back(hours[k]);
+    std::vector<std::vector<Rgb>> computed(keyframes.size()), result(hours.size());
+    tbb::parallel_for(std::size_t(0), computed.size(),
+                      [&](std::size_t i) { computed[i] = sky_bins(model.clear_sky(at[i])); });
+    tbb::parallel_for(std::size_t(0), hours.size(), [&](std::size_t k) {
+        result[k].assign(kSkyBins, Rgb(0.0f));
+        const CurveBlend blend = curve_blend(at, hours[k]);
+        for (std::size_t i = 0; i < blend.share.size(); ++i)
+            for (std::size_t bin = 0; bin < kSkyBins && blend.share[i] != 0.0; ++bin)
+                result[k][bin] += float(blend.share[i]) * computed[blend.keyframe[i]][bin];
+        for (Rgb& radiance : result[k]) radiance = glm::max(radiance, Rgb(0.0f));
+    });
+    return result;
 }
 
 }  // namespace
@@ -57,9 +92,8 @@ DayLight day_light(const LightModel& model, std::vector<double> hours) {
     columns.suns = settings.sun == SunSource::Day ? count : model.unit_suns(columns.hours[0]).empty() ? 0 : 1;
     columns.skies = settings.sky == SkySource::Day ? count : model.clear_sky(columns.hours[0]).black() ? 0 : 1;
     for (std::size_t s = 0; s < columns.suns; ++s) light.suns.push_back(model.unit_suns(columns.hours[s]));
-    light.sky.resize(columns.skies);
-    tbb::parallel_for(std::size_t(0), columns.skies,
-                      [&](std::size_t k) { light.sky[k] = sky_bins(model.clear_sky(columns.hours[k])); });
+    if (columns.skies > 1) light.sky = clear_skies(model, columns.hours);
+    if (columns.skies == 1) light.sky.push_back(sky_bins(model.clear_sky(columns.hours[0])));
     for (const Environment* part : {&model.sky_parts().overcast, &model.sky_parts().ground, &model.sky_parts().night})
         light.sky.push_back(sky_bins(*part));
     for (double hour : columns.hours) light.scales.push_back(model.scales(hour, 0.0));

@@ -7,10 +7,10 @@
 
 namespace daylit {
 
-/// Uniform over the sun's disc, small enough to be flat; u in [0,1)^2.
-inline Vec3 sample_sun_disc(const Vec3& direction, const Vec2& u) {
+/// Uniform over the sun's disc, small enough to be flat, in a frame whose z looks at its middle; u in [0,1)^2.
+inline Vec3 sample_sun_disc(const Vec2& u) {
     const float r = std::tan(float(kSunRadius)) * std::sqrt(u.x), phi = 2.0f * kPiF * u.y;
-    return glm::normalize(Frame(direction).to_world({r * std::cos(phi), r * std::sin(phi), 1.0f}));
+    return glm::normalize(Vec3(r * std::cos(phi), r * std::sin(phi), 1.0f));
 }
 
 /// x modulo 1, in [0,1).

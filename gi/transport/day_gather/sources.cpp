@@ -97,7 +97,7 @@ std::vector<Rgb> sun_irradiance(const GatherScene& scene, const GatherHits& hits
                 const Place& place = points.any((float(s) + random.next()) / float(kSunSamples));
                 const Vec2 u((float((s * 3) % kSunSamples) + random.next()) / float(kSunSamples), random.next());
                 if (glm::dot(sun.direction, place.normal) < -float(kSunRadius)) continue;
-                const Vec3 direction = sample_sun_disc(sun.direction, u);
+                const Vec3 direction = Frame(sun.direction).to_world(sample_sun_disc(u));
                 const float cosine = glm::dot(direction, place.normal);
                 if (cosine <= 0.0f) continue;
                 const Vec3 origin = RayScene::offset_origin(place.position, place.normal, direction);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <optional>
 
 #include "engine/base/random.h"
 #include "gi/transport/day_gather/places.h"
@@ -20,7 +21,7 @@ constexpr std::size_t kNone = ~std::size_t(0);
 /// One receiver's day.
 class Arc {
   public:
-    Arc(const GatherScene& scene, std::span<const std::vector<Sun>> suns, std::size_t stride)
+    Arc(const GatherScene& scene, std::span<const std::optional<Frame>> suns, std::size_t stride)
         : scene_(scene), suns_(suns), stride_(stride) {
         for (auto& seen : seen_) seen.resize(suns.size());
         for (auto& cosine : cosine_) cosine.resize(suns.size());
@@ -31,7 +32,8 @@ class Arc {
         for (std::size_t m = 0; m < kSamples; ++m) {
             // Stratified over the points and the rings of the disc; the same at every hour, so that noise stands still.
             place_[m] = points.any((float(m) + random.next()) / float(kSamples));
-            disc_[m] = Vec2((float((m * 3) % kSamples) + random.next()) / float(kSamples), random.next());
+            disc_[m] =
+                sample_sun_disc(Vec2((float((m * 3) % kSamples) + random.next()) / float(kSamples), random.next()));
             find_facing(m);
         }
         for (std::size_t m = 0; m < kSamples; ++m) test_sparsely(m);
@@ -51,17 +53,15 @@ class Arc {
 
   private:
     Vec3 direction(std::size_t m, std::size_t hour) const {
-        return sample_sun_disc(suns_[hour][0].direction, disc_[m]);
+        return suns_[hour]->to_world(disc_[m]);
     }
 
     /// Hours behind the receiver's horizon need no test.
     void find_facing(std::size_t m) {
         for (std::size_t h = 0; h < suns_.size(); ++h) {
             cosine_[m][h] = 0.0f, seen_[m][h] = 0.0f;
-            if (suns_[h].empty()) continue;
-            const float middle = glm::dot(suns_[h][0].direction, place_[m].normal);
-            if (middle < -float(kSunRadius)) continue;
-            cosine_[m][h] = glm::dot(direction(m, h), place_[m].normal);
+            if (!suns_[h]) continue;
+            cosine_[m][h] = std::max(glm::dot(direction(m, h), place_[m].normal), 0.0f);
             if (cosine_[m][h] > 0.0f) seen_[m][h] = kUnknown;
         }
     }
@@ -118,10 +118,10 @@ class Arc {
     }
 
     const GatherScene& scene_;
-    std::span<const std::vector<Sun>> suns_;
+    std::span<const std::optional<Frame>> suns_;  // per hour: z towards the sun
     std::size_t stride_, tests_ = 0;
     std::array<Place, kSamples> place_;
-    std::array<Vec2, kSamples> disc_;
+    std::array<Vec3, kSamples> disc_;                                  // places on the disc, in the sun's frame
     std::array<std::vector<float>, kSamples> seen_, sparse_, cosine_;  // per hour
 };
 
@@ -137,11 +137,14 @@ SunRows::SunRows(const GatherScene& scene, const GatherHits& hits, std::span<con
                  std::span<const std::vector<Sun>> suns, const GatherSettings& settings, const StageProgress& progress)
     : places_(hits.receivers.size()), chunks_((places_.size() + kChunk - 1) / kChunk) {
     const std::size_t stride = stride_of(hours);
+    std::vector<std::optional<Frame>> frames(suns.size());
+    for (std::size_t h = 0; h < suns.size(); ++h)
+        if (!suns[h].empty()) frames[h].emplace(suns[h][0].direction);
     std::atomic<std::size_t> tests = 0;
     for_each_parallel(
         chunks_.size(), progress,
         [&](std::size_t c) {
-            Arc arc(scene, suns, stride);
+            Arc arc(scene, frames, stride);
             for (std::size_t r = c * kChunk; r < std::min((c + 1) * kChunk, places_.size()); ++r) {
                 const UsablePoints points(scene, hits, r);
                 Random random(settings.seed, r, kSunStream);
