@@ -40,7 +40,8 @@ std::vector<std::string> parts_of(const std::string& text) {
         const std::size_t comma = std::min(text.find(',', begin), text.size());
         const std::string part = text.substr(begin, comma - begin);
         if (part != "lightmap" && part != "volume" && part != "dirmap" && part != "antiradiance" && part != "caustics")
-            throw UsageError("--parts", "'" + part + "' is not one of auto, lightmap, volume, dirmap, antiradiance, caustics");
+            throw UsageError("--parts",
+                             "'" + part + "' is not one of auto, lightmap, volume, dirmap, antiradiance, caustics");
         parts.push_back(part);
         begin = comma + 1;
     }
@@ -49,11 +50,13 @@ std::vector<std::string> parts_of(const std::string& text) {
 
 void read_hours(const BakeOptions& options, BakeSettings& settings) {
     const std::size_t dash = options.hours.find('-', 1);
-    if (dash == std::string::npos) throw UsageError("--hours", "'" + options.hours + "' is not FROM-TO, as in 0-24 or 6-20");
+    if (dash == std::string::npos)
+        throw UsageError("--hours", "'" + options.hours + "' is not FROM-TO, as in 0-24 or 6-20");
     const std::string from = options.hours.substr(0, dash), to = options.hours.substr(dash + 1);
     settings.from_hour = parse_hour("--hours", from);
     settings.to_hour = to == "24" || to == "24:00" ? 24.0 : parse_hour("--hours", to);
-    if (settings.to_hour < settings.from_hour) throw Error("--hours", "ends before it begins; give FROM-TO within one day");
+    if (settings.to_hour < settings.from_hour)
+        throw Error("--hours", "ends before it begins; give FROM-TO within one day");
     settings.every_hours = parse_duration_hours("--every", options.every);
     if (!(settings.every_hours >= 1.0 / 60.0)) throw Error("--every", "give a minute or more");
 }
@@ -70,19 +73,28 @@ BakeSettings settings_from(const BakeOptions& options) {
 }
 
 void run(const BakeOptions& options) {
-    // A bake of this first form takes minutes and is the same each time, so there is nothing to go on from.
-    if (options.resume) throw Error("--resume", "is not part of this version; bake again without it, the result is the same");
-    const std::filesystem::path output =
-        options.output.empty() ? std::filesystem::path(options.scene.scene).replace_extension(".daylit")
-                               : std::filesystem::path(options.output);
+    const std::filesystem::path output = options.output.empty()
+                                             ? std::filesystem::path(options.scene.scene).replace_extension(".daylit")
+                                             : std::filesystem::path(options.output);
     check_output(output.string(), {".daylit"});
     BakeSettings settings = settings_from(options);
+    // Beside the result, so that it lies where there is room and is found again; no glTF or baked file has this name.
+    settings.checkpoint = output;
+    settings.checkpoint += ".part";
+    settings.resume = options.resume;
     const ThreadLimit threads(options.threads);
     const LoadedScene loaded = load(options.scene);
     settings.light = loaded.light, settings.unit = loaded.unit, settings.lambert = loaded.lambert;
 
     const auto start = std::chrono::steady_clock::now();
-    write_baked(output, bake(loaded.scene, settings, make_progress("bake")));
+    try {
+        write_baked(output, bake(loaded.scene, settings, make_progress("bake")));
+    } catch (const Interrupted&) {
+        throw Stopped("stopped; what was traced is kept in " + settings.checkpoint.string() +
+                      ", and the same command with --resume goes on from there");
+    }
+    std::error_code ignored;
+    std::filesystem::remove(settings.checkpoint, ignored);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
     nlohmann::json about = describe_baked(output);
@@ -101,18 +113,29 @@ void add_bake(CLI::App& app) {
     add_scene_options(*command, options->scene);
     const std::string group = "Bake";
     command->add_option("-o", options->output, "file to write (default: beside the scene, .daylit)")->group(group);
-    CLI::Option* quality = command->add_option("--quality", options->quality, "preview (error 0.10) | medium (0.03) | high (0.01)")
-                               ->group(group)->capture_default_str();
-    command->add_option("--error", options->error, "target relative error instead of a quality")->group(group)->excludes(quality);
-    command->add_option("--parts", options->parts, "auto, or a list of lightmap, volume, dirmap, antiradiance, caustics")
-        ->group(group)->capture_default_str();
+    CLI::Option* quality =
+        command->add_option("--quality", options->quality, "preview (error 0.10) | medium (0.03) | high (0.01)")
+            ->group(group)
+            ->capture_default_str();
+    command->add_option("--error", options->error, "target relative error instead of a quality")
+        ->group(group)
+        ->excludes(quality);
+    command
+        ->add_option("--parts", options->parts, "auto, or a list of lightmap, volume, dirmap, antiradiance, caustics")
+        ->group(group)
+        ->capture_default_str();
     command->add_option("--hours", options->hours, "FROM-TO, local clock")->group(group)->capture_default_str();
-    command->add_option("--every", options->every, "time between the hours that are baked, as in 5m or 0.5h")->group(group)->capture_default_str();
-    command->add_option("--bounces", options->bounces, "at most; ends when the rest no longer counts")->group(group)->capture_default_str();
+    command->add_option("--every", options->every, "time between the hours that are baked, as in 5m or 0.5h")
+        ->group(group)
+        ->capture_default_str();
+    command->add_option("--bounces", options->bounces, "at most; ends when the rest no longer counts")
+        ->group(group)
+        ->capture_default_str();
     command->add_option("--seed", options->seed, "of the random numbers")->group(group)->capture_default_str();
     command->add_option("--threads", options->threads, "0: all cores")->group(group)->capture_default_str();
     command->add_flag("--resume", options->resume, "go on from an interrupted bake")->group(group);
-    command->add_flag("--json", options->json, "what was baked, as `info --json`, and the seconds it took")->group(group);
+    command->add_flag("--json", options->json, "what was baked, as `info --json`, and the seconds it took")
+        ->group(group);
     command->callback([options] { run(*options); });
 }
 

@@ -64,6 +64,8 @@ int main(int argc, char** argv) {
         return fail(kWrongUsage, error.what());
     } catch (const daylit::Error& error) {
         return fail(kFailure, error.what());
+    } catch (const daylit::Stopped& stopped) {
+        return fail(kInterrupted, stopped.what());
     } catch (const daylit::Interrupted&) {
         return fail(kInterrupted, "stopped; nothing was written");
     } catch (const std::bad_alloc&) {

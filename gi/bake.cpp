@@ -1,7 +1,10 @@
 #include "gi/bake.h"
 
+#include <bit>
 #include <cstdio>
 
+#include "engine/base/file.h"
+#include "engine/base/random.h"
 #include "gi/bake_plan.h"
 #include "gi/encode/encode_lightmap.h"
 #include "gi/encode/encode_volume.h"
@@ -84,6 +87,22 @@ void note(std::vector<PlanItem>& plan, const char* part, const std::string& why,
         if (item.part == part) item.why += ": " + why, item.error = error;
 }
 
+/// Of all that decides what is traced.
+std::uint64_t checkpoint_key(const Scene& scene, const WorldMesh& mesh, const BakePlan& plan,
+                             const BakeSettings& settings) {
+    constexpr std::uint64_t kStage = 1;  // changes whenever what is traced does
+    std::uint64_t key = mix64(kStage ^ mix64(geometry_hash(mesh)));
+    for (const std::uint64_t part : {std::uint64_t(plan.texel_budget), std::uint64_t(plan.rays), settings.seed,
+                                     std::uint64_t(settings.lambert), std::bit_cast<std::uint64_t>(settings.unit)})
+        key = mix64(key ^ part);
+    if (std::filesystem::exists(scene.path)) {
+        const std::vector<std::uint8_t> file = read_file(scene.path);
+        key = hash_bytes(std::as_bytes(std::span(file)), key);
+    }
+    for (const Image8& image : scene.images) key = hash_bytes(std::as_bytes(std::span(image.rgba)), key);
+    return key;
+}
+
 /// One solution for all parts: light at texels and probes at all hours, then a projection of it for each part.
 void bake_light(const Scene& scene, const WorldMesh& mesh, std::span<const PlacedLight> lamps, const LightModel& light,
                 const BakePlan& plan, const BakeSettings& settings, const Progress& progress, Baked& baked) {
@@ -94,7 +113,10 @@ void bake_light(const Scene& scene, const WorldMesh& mesh, std::span<const Place
     const GatherSettings how{.rays = plan.rays, .bounces = settings.bounces, .seed = settings.seed};
     const ProbeGrid grid = plan.volume ? make_probe_grid(scene, plan.probe_spacing, plan.most_probes) : ProbeGrid{};
 
-    const GatherHits hits = trace_hits(gather, how, {progress, 0.02, 0.42});
+    Checkpoint checkpoint;
+    if (!settings.checkpoint.empty())
+        checkpoint = Checkpoint(settings.checkpoint, checkpoint_key(scene, mesh, plan, settings), settings.resume);
+    const GatherHits hits = trace_hits(gather, how, checkpoint, {progress, 0.02, 0.42});
     const ProbeHits probes =
         trace_probes(gather, hits, wanted_positions(grid), plan.probe_rays, how, {progress, 0.42, 0.46});
     const std::vector<ByLit> lamp_light = lamp_irradiance(gather, hits, how, {progress, 0.46, 0.5});
@@ -108,8 +130,9 @@ void bake_light(const Scene& scene, const WorldMesh& mesh, std::span<const Place
         DayLightmap shape;
         shape.width = atlas.width, shape.height = atlas.height, shape.corner_uvs = atlas.corner_uvs;
         const LightRows rows{light_basis(day.basis), 1, day.texels, moments(day, light)};
-        EncodedLightmap encoded = encode_lightmap(std::move(shape), rows,
-                                                  rows_of_pixels(atlas, texels, rows_of_texels(shown(atlas, texels, hits, open))), {});
+        EncodedLightmap encoded =
+            encode_lightmap(std::move(shape), rows,
+                            rows_of_pixels(atlas, texels, rows_of_texels(shown(atlas, texels, hits, open))), {});
         note(baked.plan, "lightmap", describe(encoded, texels, plan, day), encoded.error);
         baked.lightmap = std::move(encoded.map);
     }

@@ -21,11 +21,16 @@ struct BakeSettings {
     int bounces = 64;  // at most; ends when the rest no longer counts
     std::uint64_t seed = 1;
     std::vector<std::string> parts;  // empty: auto
+    /// Where the state of an unfinished bake is kept, for `resume` to go on from; empty: nowhere. Whoever asks for the
+    /// bake removes the file once its result is safe.
+    std::filesystem::path checkpoint;
+    bool resume = false;
     BakeTuning tuning;
 };
 
 /// Indirect light of the static geometry (dynamic nodes take no part). Same inputs, same bytes, for any number of
-/// threads. throws Interrupted when progress says so, Error for what cannot be baked.
+/// threads, and when it was interrupted and resumed. throws Interrupted when progress says so, Error for what cannot be
+/// baked.
 Baked bake(const Scene& scene, const BakeSettings& settings, const Progress& progress = {});
 
 }  // namespace daylit

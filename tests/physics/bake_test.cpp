@@ -166,6 +166,40 @@ TEST_F(Bake, StopsWhenAsked) {
     EXPECT_THROW(bake(scene, quick(12.0), [](double done) { return done < 0.1; }), Interrupted);
 }
 
+// A bake that is stopped, or killed in the middle of a write, and resumed gives the bytes of one that was left alone.
+TEST_F(Bake, ResumesToTheSameBytes) {
+    const Scene scene = made("two_rooms");
+    BakeSettings settings = quick(12.0, 0.5);
+    const auto bytes = [&](const BakeSettings& how) {
+        write_baked(folder_ / "bake.daylit", bake(scene, how));
+        return read_file(folder_ / "bake.daylit");
+    };
+    const auto alone = bytes(settings);
+    settings.checkpoint = folder_ / "bake.part";
+    EXPECT_THROW(bake(scene, settings, [](double done) { return done < 0.45; }), Interrupted);
+    const auto kept = read_file(settings.checkpoint);
+    ASSERT_GT(kept.size(), 100000u);
+    settings.resume = true;
+    double first = 1.0;  // progress at the first look after the start
+    const Progress watch = [&](double done) {
+        if (done > 0.02) first = std::min(first, done);
+        return true;
+    };
+    write_baked(folder_ / "bake.daylit", bake(scene, settings, watch));
+    EXPECT_EQ(read_file(folder_ / "bake.daylit"), alone);
+    EXPECT_GT(first, 0.1);  // what was kept was not traced again
+
+    write_file(settings.checkpoint, std::span(kept).first(kept.size() - 1000));
+    EXPECT_EQ(bytes(settings), alone);
+    auto damaged = kept;
+    damaged[kept.size() / 2] ^= 1;
+    write_file(settings.checkpoint, damaged);
+    EXPECT_EQ(bytes(settings), alone);
+    settings.seed = 2;  // another bake: nothing of this one's is taken
+    settings.resume = true;
+    EXPECT_NE(bytes(settings), alone);
+}
+
 TEST_F(Bake, RefusesPartsThatItCannotBake) {
     BakeSettings settings = quick(12.0);
     settings.parts = {"dirmap"};

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "gi/checkpoint.h"
 #include "gi/parallel.h"
 #include "gi/surface/texels.h"
 #include "gi/trace/ray_scene.h"
@@ -73,7 +74,9 @@ struct ProbeHits {
     std::size_t count() const { return position.size(); }
 };
 
-GatherHits trace_hits(const GatherScene& scene, const GatherSettings& settings, const StageProgress& progress);
+/// checkpoint   finished receivers are kept there, and those that it holds are not traced again
+GatherHits trace_hits(const GatherScene& scene, const GatherSettings& settings, Checkpoint& checkpoint,
+                      const StageProgress& progress);
 
 /// The same question asked in free space: what they meet are the receivers of `hits`.
 /// rays   per probe

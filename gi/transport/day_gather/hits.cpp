@@ -113,7 +113,8 @@ class ReceiverRays {
     // Both ways of meeting an emitter are weighed by the power heuristic (Veach 1997).
     Rgb emitted_towards(const Ray& ray, const Hit& hit, float cosine) const {
         const float by_ray = float(settings_.rays) * pdf_cosine_hemisphere(cosine);
-        return power_heuristic(by_ray, float(kEmitterSamples) * sight_.emitter_pdf(ray, hit)) * sight_.emission(ray, hit);
+        return power_heuristic(by_ray, float(kEmitterSamples) * sight_.emitter_pdf(ray, hit)) *
+               sight_.emission(ray, hit);
     }
 
     ByLit sampled_emission(std::size_t r, const Points& points, Random& random, const GatherHits& out) const {
@@ -137,8 +138,8 @@ class ReceiverRays {
         if (light.radiance == Rgb(0.0f) || !(light.pdf > 0.0f) || cosine <= 0.0f) return Rgb(0.0f);
         const Vec3 origin = RayScene::offset_origin(p, n, light.direction);
         const float open = sight_.open(origin, p, light);
-        const float weight = power_heuristic(float(kEmitterSamples) * light.pdf,
-                                             float(settings_.rays) * pdf_cosine_hemisphere(cosine));
+        const float weight =
+            power_heuristic(float(kEmitterSamples) * light.pdf, float(settings_.rays) * pdf_cosine_hemisphere(cosine));
         return weight * open * cosine / light.pdf * light.radiance;
     }
 
@@ -156,6 +157,19 @@ void add_receivers(const std::vector<Receiver>& more, GatherHits& hits) {
     hits.usable.resize(count, 0);
     hits.nearness.resize(count, 0.0f);
     hits.emission.resize(count);
+}
+
+constexpr std::size_t kBlock = 8192;  // receivers that are kept together
+
+/// What is traced of the receivers [first, last), as bytes.
+template <class Byte, class Hits>
+std::array<std::span<Byte>, 5> block_of(Hits& hits, std::size_t first, std::size_t last) {
+    const auto bytes = [&](auto& values, std::size_t each) {
+        const auto part = std::span(values).subspan(first * each, (last - first) * each);
+        return std::span<Byte>(reinterpret_cast<Byte*>(part.data()), part.size_bytes());
+    };
+    return {bytes(hits.hit, std::size_t(hits.rays)), bytes(hits.scale, 1), bytes(hits.usable, 1),
+            bytes(hits.nearness, 1), bytes(hits.emission, 1)};
 }
 
 /// Charts whose backs are met, from receivers `first` on, by more rays than chance cracks let through.
@@ -198,7 +212,8 @@ GatherScene gather_scene(const RayScene& rays, const Atlas& atlas, const Texels&
             for (std::size_t set = 0; set < 2; ++set)
                 uvs[set] = mesh.uvs[c[0]][set] * w.x + mesh.uvs[c[1]][set] * w.y + mesh.uvs[c[2]][set] * w.z;
             const Rgba color = mesh.colors[c[0]] * w.x + mesh.colors[c[1]] * w.y + mesh.colors[c[2]] * w.z;
-            const glsl::Brdf brdf = surface_brdf(rays.scene(), rays.scene().materials[mesh.materials[p.triangle]], uvs, color);
+            const glsl::Brdf brdf =
+                surface_brdf(rays.scene(), rays.scene().materials[mesh.materials[p.triangle]], uvs, color);
             sum += glm::clamp(brdf.diffuse + brdf.specular, Rgb(0.0f), Rgb(1.0f));
         }
         scene.albedo[i] = sum / float(points.size());
@@ -206,7 +221,8 @@ GatherScene gather_scene(const RayScene& rays, const Atlas& atlas, const Texels&
     return scene;
 }
 
-GatherHits trace_hits(const GatherScene& scene, const GatherSettings& settings, const StageProgress& progress) {
+GatherHits trace_hits(const GatherScene& scene, const GatherSettings& settings, Checkpoint& checkpoint,
+                      const StageProgress& progress) {
     const ReceiverRays receiver_rays(scene, settings);
     GatherHits hits;
     hits.rays = settings.rays;
@@ -218,9 +234,15 @@ GatherHits trace_hits(const GatherScene& scene, const GatherSettings& settings, 
         const std::size_t first = hits.receivers.size();
         add_receivers(fresh, hits);
         const double end = begin == 0.0 ? 0.8 : 1.0;
-        const StageProgress pass{progress.report, progress.begin + begin * (progress.end - progress.begin),
-                                 progress.begin + end * (progress.end - progress.begin)};
-        for_each_parallel(fresh.size(), pass, [&](std::size_t i) { receiver_rays.trace(first + i, hits); });
+        const StageProgress pass = progress.part(begin, end);
+        for (std::size_t at = first; at < hits.receivers.size(); at += kBlock) {
+            const std::size_t last = std::min(at + kBlock, hits.receivers.size());
+            const auto share = [&](std::size_t r) { return double(r - first) / double(fresh.size()); };
+            if (checkpoint.load(at, block_of<std::byte>(hits, at, last))) continue;
+            for_each_parallel(last - at, pass.part(share(at), share(last)),
+                              [&](std::size_t i) { receiver_rays.trace(at + i, hits); });
+            checkpoint.store(at, block_of<const std::byte>(hits, at, last));
+        }
         begin = end;
         for (std::uint32_t c : charts_seen_from_behind(scene, hits, first, has_back)) has_back[c] = true;
         fresh.clear();
@@ -228,7 +250,8 @@ GatherHits trace_hits(const GatherScene& scene, const GatherSettings& settings, 
             if (has_back[scene.texels.chart[t]]) fresh.push_back({t, true});
         if (hits.receivers.size() > scene.texels.count()) {  // those that have receivers already
             std::vector<bool> done(scene.texels.count(), false);
-            for (std::size_t r = scene.texels.count(); r < hits.receivers.size(); ++r) done[hits.receivers[r].texel] = true;
+            for (std::size_t r = scene.texels.count(); r < hits.receivers.size(); ++r)
+                done[hits.receivers[r].texel] = true;
             std::erase_if(fresh, [&](const Receiver& r) { return done[r.texel]; });
         }
     }
