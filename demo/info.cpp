@@ -12,20 +12,28 @@ namespace {
 
 const char* name_of(SunSource source) {
     switch (source) {
-        case SunSource::Day: return "day";
-        case SunSource::Scene: return "scene";
-        case SunSource::None: return "none";
-        case SunSource::Given: return "given";
+        case SunSource::Day:
+            return "day";
+        case SunSource::Scene:
+            return "scene";
+        case SunSource::None:
+            return "none";
+        case SunSource::Given:
+            return "given";
     }
     return "";
 }
 
 const char* name_of(SkySource source) {
     switch (source) {
-        case SkySource::Day: return "day";
-        case SkySource::None: return "none";
-        case SkySource::File: return "file";
-        case SkySource::Constant: return "constant";
+        case SkySource::Day:
+            return "day";
+        case SkySource::None:
+            return "none";
+        case SkySource::File:
+            return "file";
+        case SkySource::Constant:
+            return "constant";
     }
     return "";
 }
@@ -34,10 +42,30 @@ nlohmann::json describe_light(const Baked& baked) {
     const LightSettings& light = baked.light;
     char date[32];
     std::snprintf(date, sizeof date, "%04d-%02d-%02d", light.day.date.year, light.day.date.month, light.day.date.day);
-    return {{"latitude", light.day.latitude},     {"longitude", light.day.longitude}, {"date", date},
-            {"utc_offset", light.day.utc_offset}, {"north", light.day.north},         {"sun", name_of(light.sun)},
-            {"sky", name_of(light.sky)},          {"turbidity", light.turbidity},     {"clouds", light.clouds},
-            {"metres_per_unit", baked.unit},      {"materials", baked.lambert ? "lambert" : "full"}};
+    return {{"latitude", light.day.latitude},
+            {"longitude", light.day.longitude},
+            {"date", date},
+            {"utc_offset", light.day.utc_offset},
+            {"north", light.day.north},
+            {"sun", name_of(light.sun)},
+            {"sky", name_of(light.sky)},
+            {"turbidity", light.turbidity},
+            {"clouds", light.clouds},
+            {"metres_per_unit", baked.unit},
+            {"materials", baked.lambert ? "lambert" : "full"}};
+}
+
+nlohmann::json describe_volume(const IrradianceVolume& volume) {
+    const VolumeTree& tree = volume.tree;
+    const Bounds box = tree.bounds();
+    return {{"cells", tree.cells.size()},
+            {"walls", tree.cuts.size()},
+            {"corners", tree.samples},
+            {"hanging", tree.hanging.size()},
+            {"components", volume.basis.components},
+            {"hours", volume.basis.hours},
+            {"min", {box.min.x, box.min.y, box.min.z}},
+            {"max", {box.max.x, box.max.y, box.max.z}}};
 }
 
 nlohmann::json describe_lightmap(const DayLightmap& map) {
@@ -73,19 +101,17 @@ std::string part_line(const nlohmann::json& part) {
 
 nlohmann::json describe_baked(const std::filesystem::path& path) {
     const Baked baked = read_baked(path);
-    nlohmann::json about = {{"file", path.string()}, {"bytes", std::filesystem::file_size(path)}, {"light", describe_light(baked)}};
+    nlohmann::json about = {
+        {"file", path.string()}, {"bytes", std::filesystem::file_size(path)}, {"light", describe_light(baked)}};
     about["parts"] = nlohmann::json::array();
     for (const PlanItem& item : baked.plan) {
-        nlohmann::json part = {{"part", item.part}, {"done", item.done}, {"why", item.why}, {"bytes", item.bytes}, {"error", nullptr}};
+        nlohmann::json part = {
+            {"part", item.part}, {"done", item.done}, {"why", item.why}, {"bytes", item.bytes}, {"error", nullptr}};
         if (item.error >= 0.0) part["error"] = item.error;
         about["parts"].push_back(part);
     }
-    if (const auto& map = baked.lightmap)
-        about["lightmap"] = describe_lightmap(*map);
-    if (const auto& volume = baked.volume)
-        about["volume"] = {{"probes", volume->size}, {"spacing", volume->spacing}, {"components", volume->basis.components},
-                           {"hours", volume->basis.hours},
-                           {"origin", {volume->origin.x, volume->origin.y, volume->origin.z}}};
+    if (const auto& map = baked.lightmap) about["lightmap"] = describe_lightmap(*map);
+    if (const auto& volume = baked.volume) about["volume"] = describe_volume(*volume);
     return about;
 }
 

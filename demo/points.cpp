@@ -25,8 +25,7 @@ struct PointsOptions {
 
 std::vector<SurfaceSample> sample(const PointsOptions& options, const TracedScene& scene) {
     if (options.count < 1 || options.count > 10000000) throw Error("--count", "give 1 to 10000000");
-    if (options.sample == "surface")
-        return sample_surface(scene.loaded.scene, scene.pose, options.count, options.seed);
+    if (options.sample == "surface") return sample_surface(scene.loaded.scene, scene.pose, options.count, options.seed);
     if (options.sample == "space") return sample_space(scene.rays, scene.pose, options.count, options.seed);
     throw UsageError("--sample", "'" + options.sample + "' is not one of surface, space");
 }
@@ -54,9 +53,11 @@ std::vector<Rgb> by_volume(const PointsOptions& options, const TracedScene& scen
     if (!scene.loaded.baked) throw UsageError("--method", "volume reads a baked file; name it with --light");
     if (!scene.loaded.baked->volume) throw Error(options.light, "has no volume; daylit info says why");
     const IrradianceVolume& volume = *scene.loaded.baked->volume;
-    const std::vector<float> weights = volume.basis.weights(scene.hour);
-    std::vector<Rgb> result;
-    for (const SurfaceSample& p : points) result.push_back(volume.irradiance(p.position, p.normal, weights));
+    const VolumeLight light(volume, volume.basis.weights(scene.lighting.scales, scene.hour));
+    std::vector<Vec3> places, normals;
+    for (const SurfaceSample& p : points) places.push_back(p.position), normals.push_back(p.normal);
+    std::vector<Rgb> result(points.size());
+    light.irradiance(places, normals, result);
     return result;
 }
 

@@ -52,33 +52,15 @@ std::vector<std::uint32_t> rows_of_texels(const std::vector<bool>& shown) {
     return result;
 }
 
-/// The hours that the file keeps: at most half an hour apart where hours are baked more closely.
-std::vector<Keyframe> choose_keyframes(const LightModel& light, const std::vector<double>& hours) {
-    constexpr double kApart = 0.5 - 1e-6;
-    std::vector<Keyframe> result;
-    for (std::size_t k = 0; k < hours.size(); ++k) {
-        const bool next_is_late =
-            k + 1 < hours.size() && !result.empty() && hours[k + 1] - hours[result.back().hour] > kApart + 2e-6;
-        if (k > 0 && k + 1 < hours.size() && hours[k] - hours[result.back().hour] < kApart && !next_is_late) continue;
-        result.push_back({k, light.scales(hours[k], light.settings().clouds)});
-    }
-    return result;
-}
-
-std::string describe(const EncodedVolume& encoded, const ProbeGrid& grid, const BakePlan& plan) {
-    const auto& size = grid.size;
-    char spacing[32];
-    std::snprintf(spacing, sizeof spacing, "%.2f m", double(grid.spacing));
-    return std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " + std::to_string(size[2]) + " probes " +
-           spacing + " apart, " + std::to_string(grid.wanted.size()) + " where something can be, " +
-           std::to_string(encoded.buried) + " of these in walls, " + std::to_string(plan.probe_rays) + " rays each, " +
-           std::to_string(encoded.volume.basis.components) + " components";
-}
-
-std::vector<Vec3> wanted_positions(const ProbeGrid& grid) {
-    std::vector<Vec3> positions;
-    for (std::uint32_t probe : grid.wanted) positions.push_back(grid.position(probe));
-    return positions;
+std::string describe(const EncodedVolume& encoded, const BakePlan& plan) {
+    const VolumeTree& tree = encoded.volume.tree;
+    std::string text = std::to_string(tree.cells.size()) + " cells, " + std::to_string(tree.cuts.size()) +
+                       " of them cut by walls, " + std::to_string(tree.samples) + " corners (" +
+                       std::to_string(encoded.unmeasured) + " in walls), " + std::to_string(encoded.samples) +
+                       " places sampled with " + std::to_string(plan.volume_settings.rays) + " rays each, " +
+                       std::to_string(encoded.volume.basis.components) + " components";
+    if (encoded.budget_spent) text += ", the number of cells ended the refinement";
+    return text;
 }
 
 /// Notes in the plan what a part came to.
@@ -111,19 +93,13 @@ void bake_light(const Scene& scene, const WorldMesh& mesh, std::span<const Place
     const Texels texels = make_texels(mesh, atlas);
     const GatherScene gather = gather_scene(rays, atlas, texels, lamps);
     const GatherSettings how{.rays = plan.rays, .bounces = settings.bounces, .seed = settings.seed};
-    const ProbeGrid grid = plan.volume ? make_probe_grid(scene, plan.probe_spacing, plan.most_probes) : ProbeGrid{};
 
     Checkpoint checkpoint;
     if (!settings.checkpoint.empty())
         checkpoint = Checkpoint(settings.checkpoint, checkpoint_key(scene, mesh, plan, settings), settings.resume);
     const GatherHits hits = trace_hits(gather, how, checkpoint, {progress, 0.02, 0.42});
-    const ProbeHits probes =
-        trace_probes(gather, hits, wanted_positions(grid), plan.probe_rays, how, {progress, 0.42, 0.46});
     const std::vector<ByLit> lamp_light = lamp_irradiance(gather, hits, how, {progress, 0.46, 0.5});
     DaySolution day = solve_day(gather, hits, lamp_light, day_light(light, plan.hours), how, {progress, 0.5, 0.95});
-    const std::vector<Keyframe> keyframes = choose_keyframes(light, plan.hours);
-
-    const TimeBasisSettings encoding{.error = plan.encoding_error};
     if (plan.lightmap) {
         const std::vector<bool> open = in_the_open(texels, hits);
         day.texels = smooth(smoothing_weights(rays, texels, hits.nearness, open), day.texels, day.basis.components);
@@ -137,8 +113,12 @@ void bake_light(const Scene& scene, const WorldMesh& mesh, std::span<const Place
         baked.lightmap = std::move(encoded.map);
     }
     if (plan.volume) {
-        EncodedVolume encoded = encode_volume(grid, probes, day, keyframes, encoding);
-        note(baked.plan, "volume", describe(encoded, grid, plan), encoded.error);
+        const LeavingLight leaving{day.basis.components, day.leaving, day.basis.component_of(StillPart::Lamps),
+                                   day.basis.component_of(StillPart::Evening)};
+        EncodedVolume encoded =
+            encode_volume(scene, gather, hits, light_basis(day.basis), leaving, moments(day, light),
+                          plan.volume_settings, {.dropped = 0.1 * settings.error}, {progress, 0.9, 1.0});
+        note(baked.plan, "volume", describe(encoded, plan), encoded.error);
         baked.volume = std::move(encoded.volume);
     }
 }

@@ -3,6 +3,7 @@
 #include "engine/baked/baked_file.h"
 #include "engine/base/progress.h"
 #include "engine/scene/scene.h"
+#include "gi/encode/volume_settings.h"
 
 namespace daylit {
 
@@ -20,6 +21,7 @@ struct BakeSettings {
     double every_hours = 1.0 / 12.0;
     int bounces = 64;  // at most; ends when the rest no longer counts
     std::uint64_t seed = 1;
+    VolumeSettings volume;           // what is zero in it follows from `error`
     std::vector<std::string> parts;  // empty: auto
     /// Where the state of an unfinished bake is kept, for `resume` to go on from; empty: nowhere. Whoever asks for the
     /// bake removes the file once its result is safe.

@@ -15,11 +15,9 @@ constexpr double kFewestTexels = 24000, kTexelsPerTriangle = 8, kPreviewTexels =
 // Rays a texel at preview; noise falls with their root, and filtering over neighbours takes a good part of the rest.
 constexpr double kPreviewRays = 96, kPreviewError = 0.10;
 constexpr int kFewestRays = 32, kMostRays = 1024;
-// Probes a step apart stand for half a figure's height; the number keeps a volume's share of a bake small.
-constexpr float kProbeSpacing = 0.75f;
-constexpr std::size_t kMostProbes = 20000;
-constexpr int kRaysOfTexelsPerProbe =
-    2;  // a probe looks at the whole sphere, and has no neighbours to be filtered with
+// Samples of a volume look at the whole sphere and are averaged with few neighbours.
+constexpr int kRaysOfTexelsPerSample = 3;
+constexpr double kPreviewCells = 2000, kMostCells = 20000;
 // Below it the sun adds nothing to the night's own light (engine/scene/sky.cpp draws no sky there).
 constexpr double kDeepNight = -20.0 * kDegree;
 
@@ -32,6 +30,16 @@ std::size_t texel_budget(const SceneFacts& facts, double error) {
 int rays_per_texel(double error) {
     const double rays = kPreviewRays * std::pow(kPreviewError / error, 1.0);
     return std::clamp(int(rays / 16.0 + 0.5) * 16, kFewestRays, kMostRays);
+}
+
+VolumeSettings volume_settings(const BakeSettings& settings) {
+    VolumeSettings result = settings.volume;
+    const double finer = kPreviewError / settings.error;
+    if (result.error <= 0.0f) result.error = float(std::clamp(0.8 * settings.error, 0.03, 0.2));
+    if (result.most_cells == 0) result.most_cells = std::size_t(std::clamp(kPreviewCells * finer, 500.0, kMostCells));
+    if (result.rays == 0) result.rays = kRaysOfTexelsPerSample * rays_per_texel(settings.error);
+    result.seed = settings.seed;
+    return result;
 }
 
 std::vector<PlanItem> parts_of_this_version(const SceneFacts& facts, const std::vector<std::string>& asked) {
@@ -76,9 +84,7 @@ BakePlan plan_bake(const SceneFacts& facts, const LightModel& light, const BakeS
     if (!plan.lightmap && !plan.volume) return plan;
     plan.texel_budget = std::size_t(settings.tuning.texels * double(texel_budget(facts, settings.error)));
     plan.rays = std::max(1, int(settings.tuning.rays * rays_per_texel(settings.error)));
-    plan.probe_spacing = kProbeSpacing, plan.most_probes = kMostProbes;
-    plan.probe_rays = kRaysOfTexelsPerProbe * plan.rays;
-    plan.encoding_error = 0.2 * settings.error;
+    plan.volume_settings = volume_settings(settings);
     plan.hours = baked_hours(light, settings.from_hour, settings.to_hour, settings.every_hours);
     return plan;
 }

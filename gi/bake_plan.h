@@ -12,11 +12,8 @@ struct BakePlan {
     bool lightmap = false, volume = false;
     std::size_t texel_budget = 0;  // of the lightmap
     int rays = 0;                  // per texel
-    float probe_spacing = 1.0f;    // metres
-    std::size_t most_probes = 0;   // the spacing grows where the box would need more
-    int probe_rays = 0;
-    double encoding_error = 0.0;  // at which no further time component is added
-    std::vector<double> hours;    // at which sun and sky are known
+    VolumeSettings volume_settings;
+    std::vector<double> hours;  // at which sun and sky are known
 };
 
 /// throws Error when settings ask for parts that this version does not bake.

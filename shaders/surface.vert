@@ -49,7 +49,7 @@ void main() {
     v_lightmap_uv = in_lightmap_uv;
 #endif
 #ifdef VOLUME
-    TwoSided indirect = volume_irradiance(in_position, normalize(in_normal));
+    TwoSided indirect = volume_irradiance_at(in_position, normalize(in_normal));
     v_volume_front = indirect.front;
     v_volume_back = indirect.back;
 #endif

@@ -58,6 +58,10 @@ ReportMethod lightmap(const BakeSettings& base) {
     return m;
 }
 
+VolumeLight volume_at(const Baked& baked, const Instant& instant) {
+    return {*baked.volume, baked.volume->basis.weights(instant.scales, instant.hour)};
+}
+
 ReportMethod volume(const BakeSettings& base) {
     ReportMethod m;
     m.name = m.part = "volume";
@@ -66,20 +70,20 @@ ReportMethod volume(const BakeSettings& base) {
     m.present = [](const Baked& baked) { return baked.volume.has_value(); };
     m.irradiance = [](const Baked& baked, const Scene&, const Instant& instant,
                       const std::vector<SurfaceSample>& points) {
-        const std::vector<float> weights = baked.volume->basis.weights(instant.hour);
+        const VolumeLight volume = volume_at(baked, instant);
         std::vector<Rgb> light;
-        for (const SurfaceSample& p : points) light.push_back(baked.volume->irradiance(p.position, p.normal, weights));
+        for (const SurfaceSample& p : points) light.push_back(volume.irradiance(p.position, p.normal));
         return light;
     };
     m.look_up = [](const Baked& baked, const Instant& instant, const std::vector<SurfaceSample>& points) {
-        const std::vector<float> weights = baked.volume->basis.weights(instant.hour);
+        const VolumeLight volume = volume_at(baked, instant);
         return seconds_of_one([&](std::size_t i) {
             const SurfaceSample& p = points[i % points.size()];
-            return baked.volume->irradiance(p.position, p.normal, weights);
+            return volume.irradiance(p.position, p.normal);
         });
     };
     m.answers = [](const Baked& baked) {
-        return double(baked.volume->probes()) * double(baked.volume->basis.hours.size());
+        return double(baked.volume->tree.samples) * double(baked.volume->basis.hours.size());
     };
     m.sweep = day_gather_sweep(base);
     return m;

@@ -3,61 +3,52 @@
 #include <algorithm>
 #include <glm/gtc/packing.hpp>
 
-#include "shaders/shared/sh.h"
-
 namespace daylit {
 namespace {
 
-constexpr std::size_t kCoefficients = glsl::kShCoefficients;
-
-Rgb unpack(const std::uint16_t* half) {
-    return {glm::unpackHalf1x16(half[0]), glm::unpackHalf1x16(half[1]), glm::unpackHalf1x16(half[2])};
-}
-
-/// A coordinate between two probes of one axis.
-struct Between {
-    int below, above;
-    float share;  // of `above`
-};
-
-Between locate(float coordinate, int size) {
-    const float x = std::clamp(coordinate, 0.0f, float(size - 1));
-    const int below = std::min(int(x), size - 1);
-    return {below, std::min(below + 1, size - 1), x - float(below)};
-}
+constexpr std::size_t kNumbers = glsl::kVolumeNumbers;
 
 }  // namespace
 
-Rgb IrradianceVolume::irradiance(const Vec3& place, const Vec3& normal, std::span<const float> weights) const {
-    const Vec3 grid = (place - origin) / spacing;
-    const Between x = locate(grid.x, size[0]), y = locate(grid.y, size[1]), z = locate(grid.z, size[2]);
-    const glsl::Sh9 lobe = glsl::sh_irradiance_weights(normal);
-    Rgb sum(0.0f);
-    for (int corner = 0; corner < 8; ++corner) {
-        const float share = (corner & 1 ? x.share : 1.0f - x.share) * (corner & 2 ? y.share : 1.0f - y.share) *
-                            (corner & 4 ? z.share : 1.0f - z.share);
-        if (share == 0.0f) continue;
-        const std::size_t probe = (std::size_t(corner & 4 ? z.above : z.below) * std::size_t(size[1]) +
-                                   std::size_t(corner & 2 ? y.above : y.below)) *
-                                      std::size_t(size[0]) +
-                                  std::size_t(corner & 1 ? x.above : x.below);
-        for (std::size_t r = 0; r < weights.size(); ++r)
-            for (std::size_t i = 0; i < kCoefficients; ++i)
-                sum += share * weights[r] * lobe.c[i] *
-                       unpack(components.data() + 3 * ((r * kCoefficients + i) * probes() + probe));
-    }
-    return glm::max(sum, Rgb(0.0f));
+std::vector<Vec4> IrradianceVolume::records(std::span<const Rgb> weights) const {
+    const std::vector<float> sides = record_sides(tree);
+    std::vector<Vec4> result(kNumbers * tree.records(), Vec4(0.0f));
+    const std::size_t count = tree.samples;
+    for (std::size_t r = 0; r < weights.size(); ++r)
+        for (std::size_t i = 0; i < kNumbers; ++i) {
+            const float weight = weights[r][glm::length_t(i % 3)];
+            if (weight == 0.0f) continue;
+            const std::uint16_t* value = values.data() + (r * kNumbers + i) * count;
+            const float per_step = weight * change_scale[r * kNumbers + i] / 127.0f;
+            for (std::size_t s = 0; s < count; ++s) result[s * kNumbers + i].x += weight * glm::unpackHalf1x16(value[s]);
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const std::int8_t* change = changes.data() + ((r * 3 + axis) * kNumbers + i) * count;
+                for (std::size_t s = 0; s < count; ++s)
+                    result[s * kNumbers + i][glm::length_t(1 + axis)] += per_step / sides[s] * float(change[s]);
+            }
+        }
+    fill_hanging(tree, result);
+    return result;
 }
 
-std::vector<Rgb> IrradianceVolume::combined(std::span<const float> weights) const {
-    const std::size_t count = kCoefficients * probes();
-    std::vector<Rgb> sum(count, Rgb(0.0f));
-    for (std::size_t r = 0; r < weights.size(); ++r) {
-        if (weights[r] == 0.0f) continue;
-        const std::uint16_t* half = components.data() + 3 * r * count;
-        for (std::size_t i = 0; i < count; ++i) sum[i] += weights[r] * unpack(half + 3 * i);
-    }
-    return sum;
+glsl::VolumeArrays VolumeLight::arrays() const {
+    const VolumeTree& tree = volume_.tree;
+    return {tree.grid(), tree.nodes.data(), tree.cells.data(), tree.cuts.data(), records_.data()};
+}
+
+glsl::VolumeSh VolumeLight::radiance(const Vec3& place) const {
+    const glsl::VolumeArrays all = arrays();
+    return glsl::volume_sh(all, glsl::volume_place(all, place));
+}
+
+Rgb VolumeLight::irradiance(const Vec3& place, const Vec3& normal) const {
+    return glsl::volume_irradiance(radiance(place), normal, 1.0f);
+}
+
+void VolumeLight::irradiance(std::span<const Vec3> places, std::span<const Vec3> normals, std::span<Rgb> out) const {
+    const glsl::VolumeArrays all = arrays();
+    for (std::size_t i = 0; i < places.size(); ++i)
+        out[i] = glsl::volume_irradiance(glsl::volume_sh(all, glsl::volume_place(all, places[i])), normals[i], 1.0f);
 }
 
 }  // namespace daylit

@@ -1,35 +1,53 @@
 #pragma once
-// Indirect light in free space over the day, for what moves: probes of radiance SH on a uniform grid.
-#include <array>
+// Indirect light in free space over the day, for what moves: radiance SH and its change from place to place, at the
+// corners of an octree's cells (Oat 2005), blended so that no border between cells shows.
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "engine/baked/day_basis.h"
-#include "engine/base/units.h"
+#include "engine/baked/light_basis.h"
+#include "engine/baked/volume_tree.h"
 
 namespace daylit {
 
-/// Probe (x, y, z) stands at origin + spacing * (x, y, z). Each holds the SH coefficients (shaders/shared/sh.h) of
-/// *indirect* radiance: what comes from sky and surfaces, not straight from suns and lamps. Probes inside solid
-/// geometry hold the light of free neighbours, so that interpolation needs no exceptions.
+/// What is stored is *indirect* light: what comes from sky and surfaces, not straight from suns and lamps.
 struct IrradianceVolume {
-    Vec3 origin = Vec3(0.0f);
-    float spacing = 1.0f;  // metres
-    std::array<int, 3> size = {1, 1, 1};
-    DayBasis basis;
-    /// RGB halves, [basis.components][9][z][y][x]; cd/m^2 once multiplied by the weights.
-    std::vector<std::uint16_t> components;
+    VolumeTree tree;
+    LightBasis basis;
+    /// RGB halves of each sampled record's radiance SH (shaders/shared/sh.h), cd/m^2 once multiplied by the weights:
+    /// [component][coefficient * 3 + channel][record].
+    std::vector<std::uint16_t> values;
+    /// Its change along x, y and z over the side of the largest cell that shares the record, as a share of
+    /// change_scale / 127: [component][axis][coefficient * 3 + channel][record].
+    std::vector<std::int8_t> changes;
+    /// [component][coefficient * 3 + channel].
+    std::vector<float> change_scale;
 
-    std::size_t probes() const { return std::size_t(size[0]) * std::size_t(size[1]) * std::size_t(size[2]); }
-    Vec3 position(int x, int y, int z) const { return origin + spacing * Vec3(x, y, z); }
+    /// All records of one moment, weights = basis.weights(...): glsl::kVolumeNumbers vec4 each.
+    std::vector<Vec4> records(std::span<const Rgb> weights) const;
+};
 
-    /// *Indirect* irradiance in lux at a place on a plane with this unit normal: trilinear, as at the border outside,
-    /// never negative; weights = basis.weights(hour). Same as the shader's look-up.
-    Rgb irradiance(const Vec3& place, const Vec3& normal, std::span<const float> weights) const;
+/// A volume at one moment.
+class VolumeLight {
+  public:
+    /// The volume, not empty, must outlive this.
+    VolumeLight(const IrradianceVolume& volume, std::span<const Rgb> weights)
+        : volume_(volume), records_(volume.records(weights)) {}
 
-    /// The SH of one hour, [9][z][y][x]: what the runtime uploads.
-    std::vector<Rgb> combined(std::span<const float> weights) const;
+    /// *Indirect* irradiance in lux on a plane with this unit normal; beside the volume as at the nearest place in it,
+    /// never negative. Same as the shader's look-up.
+    Rgb irradiance(const Vec3& place, const Vec3& normal) const;
+    /// One place and normal each.
+    void irradiance(std::span<const Vec3> places, std::span<const Vec3> normals, std::span<Rgb> out) const;
+    /// Radiance SH, cd/m^2.
+    glsl::VolumeSh radiance(const Vec3& place) const;
+
+    glsl::VolumeArrays arrays() const;
+    std::span<const Vec4> records() const { return records_; }
+
+  private:
+    const IrradianceVolume& volume_;
+    std::vector<Vec4> records_;
 };
 
 }  // namespace daylit

@@ -1,41 +1,75 @@
 #include "engine/baked/volume_sections.h"
 
-#include "engine/baked/day_basis_bytes.h"
-#include "shaders/shared/sh.h"
+#include "engine/baked/light_basis_bytes.h"
 
 namespace daylit {
 namespace {
 
-constexpr std::uint32_t kMaxProbesPerSide = 4096;
+constexpr std::uint32_t kMostRoots = 4096;      // along an axis
+constexpr std::uint32_t kMostParts = 1u << 24;  // nodes, cells, records
+constexpr std::size_t kNumbers = glsl::kVolumeNumbers;
 
 Bytes code_shape(const IrradianceVolume& volume) {
+    const VolumeTree& tree = volume.tree;
     ByteWriter w;
-    w.put(volume.origin), w.put(volume.spacing);
-    for (int side : volume.size) w.put(std::uint32_t(side));
-    w.put(std::uint32_t(volume.basis.components)), w.put(std::uint32_t(volume.basis.hours.size()));
-    code_curves(volume.basis, w);
+    w.put(tree.origin), w.put(tree.side);
+    for (int side : tree.size) w.put(std::uint32_t(side));
+    for (const std::size_t count :
+         {tree.nodes.size(), tree.cells.size(), tree.cuts.size(), std::size_t(tree.samples), tree.hanging.size()})
+        w.put(std::uint32_t(count));
+    put_basis(w, volume.basis);
     return w.take();
 }
 
-void decode_shape(ByteReader r, IrradianceVolume& volume) {
-    volume.origin = r.finite_vec3();
-    volume.spacing = r.get<float>();
-    if (!(volume.spacing > 0.0f && std::isfinite(volume.spacing))) r.fail("has no spacing");
-    for (int& side : volume.size)
-        side = int(r.number<std::uint32_t>(1, kMaxProbesPerSide, "the number of probes along a side"));
-    volume.basis.components = int(r.number<std::uint32_t>(0, kMaxBasisComponents, "the number of components"));
-    decode_curves(r, r.number<std::uint32_t>(1, kMaxKeyframes, "the number of keyframes"), volume.basis);
+struct Counts {
+    std::size_t nodes, cells, cuts, hanging;
+};
+
+Counts decode_shape(ByteReader r, IrradianceVolume& volume) {
+    VolumeTree& tree = volume.tree;
+    tree.origin = r.finite_vec3();
+    tree.side = r.get<float>();
+    for (int& side : tree.size) side = int(r.number<std::uint32_t>(1, kMostRoots, "the number of roots along a side"));
+    const auto count = [&] { return r.number<std::uint32_t>(0, kMostParts, "the number of cells"); };
+    Counts counts{};
+    counts.nodes = count(), counts.cells = count(), counts.cuts = count();
+    tree.samples = count(), counts.hanging = count();
+    volume.basis = get_basis(r);
     r.expect_end();
+    return counts;
 }
 
-std::size_t probe_halves(const IrradianceVolume& volume) {
-    return 3 * std::size_t(glsl::kShCoefficients) * volume.probes() * std::size_t(volume.basis.components);
+Bytes code_tree(const VolumeTree& tree) {
+    ByteWriter w;
+    w.put_all(tree.nodes), w.put_all(tree.cells), w.put_all(tree.cuts), w.put_all(tree.hanging);
+    return w.take();
+}
+
+void decode_tree(ByteReader r, const Counts& counts, VolumeTree& tree) {
+    tree.nodes = r.get_all<std::uint32_t>(counts.nodes);
+    tree.cells = r.get_all<glsl::VolumeCell>(counts.cells);
+    tree.cuts = r.get_all<glsl::VolumeCut>(counts.cuts);
+    tree.hanging = r.get_all<HangingCorner>(counts.hanging);
+    r.expect_end();
+    if (const char* what = fault(tree)) r.fail(what);
+}
+
+std::size_t tree_bytes(const Counts& c) {
+    return c.nodes * 4 + c.cells * sizeof(glsl::VolumeCell) + c.cuts * sizeof(glsl::VolumeCut) +
+           c.hanging * sizeof(HangingCorner);
+}
+
+Bytes code_records(const IrradianceVolume& volume) {
+    ByteWriter w;
+    w.put_all(volume.change_scale), w.put_all(volume.changes), w.put_all(volume.values);
+    return w.take();
 }
 
 }  // namespace
 
 std::vector<CodedSection> code_volume(const IrradianceVolume& volume) {
-    return {code_section("VOLU", code_shape(volume)), code_section("VOSH", bytes_of(volume.components))};
+    return {code_section("VOLU", code_shape(volume)), code_section("VOTR", code_tree(volume.tree)),
+            code_section("VOSH", code_records(volume))};
 }
 
 bool has_volume(const SectionFile& file) {
@@ -44,9 +78,18 @@ bool has_volume(const SectionFile& file) {
 
 IrradianceVolume read_volume(const SectionFile& file) {
     IrradianceVolume volume;
-    decode_shape(file.open("VOLU"), volume);
-    ByteReader r = file.open("VOSH", probe_halves(volume) * sizeof(std::uint16_t));
-    volume.components = finite_halves(r, probe_halves(volume), "probe");
+    const Counts counts = decode_shape(file.open("VOLU"), volume);
+    decode_tree(file.open("VOTR", tree_bytes(counts)), counts, volume.tree);
+    const std::size_t scales = kNumbers * std::size_t(volume.basis.components), values = scales * volume.tree.samples;
+    ByteReader r = file.open("VOSH", 4 * scales + 5 * values);
+    volume.change_scale = r.get_all<float>(scales);
+    for (const float scale : volume.change_scale)
+        if (!std::isfinite(scale)) r.fail("holds a scale that is not finite");
+    volume.changes = r.get_all<std::int8_t>(3 * values);
+    volume.values = r.get_all<std::uint16_t>(values);
+    for (const std::uint16_t half : volume.values)
+        if ((half & 0x7C00u) == 0x7C00u) r.fail("holds light that is not finite");
+    r.expect_end();
     return volume;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The irradiance volume in a file: sections 'VOLU', 'VOSH'.
+// The irradiance volume in a file: sections 'VOLU', 'VOTR', 'VOSH'.
 #include "engine/baked/irradiance_volume.h"
 #include "engine/baked/section_file.h"
 

@@ -6,10 +6,6 @@
 namespace daylit {
 namespace {
 
-std::uint32_t record_of(const glsl::VolumeCell& cell, int corner) {
-    return corner < 4 ? cell.low[corner] : cell.high[corner - 4];
-}
-
 /// One number of a hanging record: the source cell's interpolant (part 0), or its change along an axis.
 float interpolated(const VolumeTree& tree, const HangingCorner& at, std::size_t part, std::span<const Vec4> records,
                    std::size_t numbers, std::size_t number) {
@@ -55,6 +51,17 @@ Bounds VolumeTree::bounds() const {
     box.add(origin);
     box.add(origin + side * Vec3(size[0], size[1], size[2]));
     return box;
+}
+
+std::vector<float> record_sides(const VolumeTree& tree) {
+    std::vector<float> sides(tree.samples, 0.0f);
+    for (const glsl::VolumeCell& cell : tree.cells)
+        for (int corner = 0; corner < 8; ++corner)
+            if (record_of(cell, corner) < tree.samples)
+                sides[record_of(cell, corner)] = std::max(sides[record_of(cell, corner)], cell.box.w);
+    for (float& side : sides)
+        if (side == 0.0f) side = 1.0f;
+    return sides;
 }
 
 void fill_hanging(const VolumeTree& tree, std::span<Vec4> records, std::size_t numbers) {

@@ -21,6 +21,10 @@ struct HangingCorner {
     std::array<Vec3, 4> t{};              // where in that cell
 };
 
+inline std::uint32_t record_of(const glsl::VolumeCell& cell, int corner) {
+    return corner < 4 ? cell.low[corner] : cell.high[corner - 4];
+}
+
 struct VolumeTree {
     Vec3 origin = Vec3(0.0f);
     float side = 1.0f;                    // of a root, metres
@@ -36,6 +40,9 @@ struct VolumeTree {
     glsl::VolumeGrid grid() const;
     Bounds bounds() const;
 };
+
+/// Metres: the side of the largest cell that has each sampled record; what its change is stored over.
+std::vector<float> record_sides(const VolumeTree& tree);
 
 /// Fills records samples, samples + 1, ... of `numbers` vec4 each (value and change along x, y, z) from those before.
 void fill_hanging(const VolumeTree& tree, std::span<Vec4> records, std::size_t numbers = glsl::kVolumeNumbers);

@@ -4,48 +4,49 @@
 
 #include "engine/base/error.h"
 #include "engine/gl/target.h"
-#include "shaders/shared/frame_block.h"
-#include "shaders/shared/sh.h"
 
 namespace daylit {
 namespace {
 
-constexpr int kCoefficients = glsl::kShCoefficients;
+/// A buffer needs some content, also where there is nothing to say.
+template <class T>
+GlBuffer storage(std::vector<T> values, GLbitfield flags = 0) {
+    if (values.empty()) values.emplace_back();
+    return make_buffer(values, flags);
+}
 
 }  // namespace
 
 BakedVolume::BakedVolume(const IrradianceVolume& volume) : volume_(volume) {
-    const auto [nx, ny, nz] = volume.size;
-    GLint largest = 0;
-    glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &largest);
-    if (nx > largest || kCoefficients * ny > largest || nz > largest)
-        throw Error("volume", std::to_string(nx) + "x" + std::to_string(ny) + "x" + std::to_string(nz) +
-                                  " probes are more than this driver's " + std::to_string(largest) +
-                                  " texels; bake with a larger --error");
-    sh_ = make_texture_3d(GL_RGBA32F, nx, kCoefficients * ny, nz);
-    const glsl::VolumeBlock block{Vec4(volume.origin, 1.0f / volume.spacing), Vec4(nx, ny, nz, 0.0f)};
-    grid_ = make_buffer(std::vector<glsl::VolumeBlock>{block});
+    const VolumeTree& tree = volume.tree;
+    const std::size_t bytes = tree.records() * glsl::kVolumeNumbers * sizeof(Vec4);
+    GLint64 largest = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largest);
+    if (bytes > std::size_t(largest))
+        throw Error("volume", std::to_string(tree.records()) + " records need " + std::to_string(bytes >> 20) +
+                                  " MB, this driver's buffers hold " + std::to_string(largest >> 20) +
+                                  "; bake with a larger --error");
+    grid_ = make_buffer(std::vector<glsl::VolumeGrid>{tree.grid()});
+    nodes_ = storage(tree.nodes), cells_ = storage(tree.cells), cuts_ = storage(tree.cuts);
+    records_ = storage(std::vector<Vec4>(tree.records() * glsl::kVolumeNumbers), GL_DYNAMIC_STORAGE_BIT);
 }
 
-bool BakedVolume::stale(double hour) const {
-    return !weights_ || volume_.basis.weights(hour) != *weights_;
+bool BakedVolume::stale(const LightScales& scales, double hour) const {
+    return !weights_ || volume_.basis.weights(scales, hour) != *weights_;
 }
 
-void BakedVolume::set_hour(double hour) {
-    if (!stale(hour)) return;
-    weights_ = volume_.basis.weights(hour);
-    const std::vector<Rgb> sh = volume_.combined(*weights_);
-    const auto [nx, ny, nz] = volume_.size;
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    for (int i = 0; i < kCoefficients; ++i)
-        glTextureSubImage3D(sh_.get(), 0, 0, i * ny, 0, nx, ny, nz, GL_RGB, GL_FLOAT,
-                            sh.data() + std::size_t(i) * volume_.probes());
+void BakedVolume::set_light(const LightScales& scales, double hour) {
+    if (!stale(scales, hour)) return;
+    weights_ = volume_.basis.weights(scales, hour);
+    light_.emplace(volume_, *weights_);
+    glNamedBufferSubData(records_.get(), 0, GLsizeiptr(light_->records().size() * sizeof(Vec4)),
+                         light_->records().data());
 }
 
 void BakedVolume::bind() const {
-    glBindTextureUnit(10, sh_.get());
-    glBindSampler(10, 0);
     glBindBufferBase(GL_UNIFORM_BUFFER, 3, grid_.get());
+    const GLuint buffers[] = {nodes_.get(), cells_.get(), cuts_.get(), records_.get()};
+    for (GLuint i = 0; i < 4; ++i) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4 + i, buffers[i]);
 }
 
 }  // namespace daylit

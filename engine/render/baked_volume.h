@@ -10,21 +10,23 @@ namespace daylit {
 
 class BakedVolume {
   public:
-    /// The volume must outlive this. throws Error when it is larger than the driver's textures.
+    /// The volume must outlive this. throws Error when it is larger than the driver's buffers.
     explicit BakedVolume(const IrradianceVolume& volume);
 
-    /// True when set_hour() would have work to do.
-    bool stale(double hour) const;
-    /// Uploads the SH of this hour; does nothing when the weights are the same as before.
-    void set_hour(double hour);
-    /// Binds what the shader reads: texture unit 10 and uniform block 3.
+    /// True when set_light() would have work to do.
+    bool stale(const LightScales& scales, double hour) const;
+    /// Uploads the records of this moment; does nothing when they are the same as before.
+    void set_light(const LightScales& scales, double hour);
+    /// The look-up on the CPU, of the moment last set; null before.
+    const VolumeLight* light() const { return light_ ? &*light_ : nullptr; }
+    /// Binds what the shader reads: uniform block 3 and storage blocks 4 to 7.
     void bind() const;
 
   private:
     const IrradianceVolume& volume_;
-    std::optional<std::vector<float>> weights_;  // of sh_
-    GlTexture sh_;  // RGBA32F (halves might overflow under bright skies), the nine coefficients stacked along y
-    GlBuffer grid_;
+    std::optional<std::vector<Rgb>> weights_;  // of records_
+    std::optional<VolumeLight> light_;
+    GlBuffer grid_, nodes_, cells_, cuts_, records_;
 };
 
 }  // namespace daylit

@@ -252,7 +252,7 @@ FrameFacts Renderer::State::facts(const FrameSettings& frame) {
     f.show = frame.show;
     f.baked = baked_light || baked_volume;
     f.baked_stale = (baked_light && baked_light->stale(lighting.scales, frame.hour)) ||
-                    (baked_volume && baked_volume->stale(frame.hour));
+                    (baked_volume && baked_volume->stale(lighting.scales, frame.hour));
     f.suns = lighting.suns.size();
     f.any_surface = draw.parts[0] || draw.parts[1];
     if (shows_straight_light(frame.show)) {
@@ -312,7 +312,7 @@ FrameReport Renderer::draw(const FrameSettings& frame) {
 
     glBindVertexArray(s.no_attributes.get());
     passes.run(PassKind::Relight, [&] {
-        if (s.baked_volume) s.baked_volume->set_hour(frame.hour);
+        if (s.baked_volume) s.baked_volume->set_light(s.lighting.scales, frame.hour);
         if (!s.baked_light) return DrawCount{};
         const int tiles = s.baked_light->set_light(s.lighting.scales, frame.hour, s.draw.programs);
         return DrawCount{1, 2 * tiles, 0, 0};

@@ -4,158 +4,295 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/packing.hpp>
 
-#include "gi/encode/halves.h"
+#include "gi/encode/volume_fit.h"
+#include "gi/surface/swept_boxes.h"
 #include "shaders/shared/sh.h"
 
 namespace daylit {
 namespace {
 
-constexpr std::size_t kCoefficients = glsl::kShCoefficients;
-// Luminance times pi to which displays adapt at the least (the floor of auto_ev).
-constexpr double kDarkestExposure = 1e-4 * kPi;
-using Sh = std::array<Rgb, kCoefficients>;
+constexpr std::size_t kNumbers = glsl::kVolumeNumbers;
+constexpr int kSpaceCells = 128;  // along the scene's longest side, for finding what can be reached
+constexpr int kPilots = 400;      // samples that the basis is chosen by
+constexpr std::size_t kJudgedMoments = 6;
+// Far from the end of halves (65504), and far above their smallest normal number (6e-5).
+constexpr float kLargestHalf = 16384.0f;
+constexpr float kCutShare = 0.02f;
+constexpr float kMostWindow = 4.0f;  // the largest lambda that is tried
 
 const std::array<Vec3, 6> kSides = {Vec3(1, 0, 0),  Vec3(-1, 0, 0), Vec3(0, 1, 0),
                                     Vec3(0, -1, 0), Vec3(0, 0, 1),  Vec3(0, 0, -1)};
 
-Rgb irradiance(const Sh& sh, const Vec3& normal) {
-    const glsl::Sh9 weights = glsl::sh_irradiance_weights(normal);
-    Rgb sum(0.0f);
-    for (std::size_t i = 0; i < kCoefficients; ++i) sum += weights.c[i] * sh[i];
-    return glm::max(sum, Rgb(0.0f));
+FreeSpace reachable_space(const Scene& scene, const RayScene& rays, const std::vector<Bounds>& regions) {
+    FreeSpace space(rays, kSpaceCells);
+    const Pose pose = pose_scene(scene);
+    for (const Camera& camera : scene.cameras) space.start_at(Vec3(pose.world_from_node[std::size_t(camera.node)][3]));
+    for (const Bounds& region : regions)
+        if (!region.empty()) space.start_at(0.5f * (region.min + region.max));
+    space.start_under_the_sky();
+    space.spread();
+    return space;
 }
 
-/// The SH of every free probe at every keyframe.
-struct ProbeDay {
-    std::size_t keyframes = 0;
-    std::vector<Sh> sh;  // [free probe][keyframe]
-    const Sh& at(std::size_t probe, std::size_t k) const { return sh[probe * keyframes + k]; }
+/// From the gather's components to the file's: [part][number][component] both.
+class Turn {
+  public:
+    explicit Turn(const Eigen::MatrixXf& matrix) : matrix_(matrix) {}
+
+    std::vector<float> operator()(const std::vector<float>& light) const {
+        using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+        const Eigen::Index rows = Eigen::Index(light.size()) / matrix_.rows();
+        std::vector<float> result(std::size_t(rows * matrix_.cols()));
+        Eigen::Map<Matrix>(result.data(), rows, matrix_.cols()).noalias() =
+            Eigen::Map<const Matrix>(light.data(), rows, matrix_.rows()) * matrix_;
+        return result;
+    }
+
+  private:
+    const Eigen::MatrixXf& matrix_;
 };
 
-ProbeDay probe_day(const DaySolution& day, const ProbeHits& probes, std::span<const Keyframe> keyframes,
-                   const std::vector<std::uint32_t>& free) {
-    std::vector<std::vector<Rgb>> weights;
-    for (const Keyframe& keyframe : keyframes) weights.push_back(day.basis.weights(keyframe.hour, keyframe.scales));
-    ProbeDay result{keyframes.size(), std::vector<Sh>(free.size() * keyframes.size())};
-    tbb::parallel_for(std::size_t(0), free.size(), [&](std::size_t f) {
-        const std::vector<Rgb> sh = gather_probe(day, probes, free[f]);
-        const std::size_t components = day.basis.components;
-        for (std::size_t k = 0; k < keyframes.size(); ++k)
-            for (std::size_t i = 0; i < kCoefficients; ++i) {
-                Rgb& sum = result.sh[f * keyframes.size() + k][i] = Rgb(0.0f);
-                for (std::size_t r = 0; r < components; ++r) sum += weights[k][r] * sh[i * components + r];
-            }
-    });
-    return result;
+std::vector<float> mean_of_halves(const ProbeLight& light) {
+    std::vector<float> mean(light.half[0].size());
+    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = 0.5f * (light.half[0][i] + light.half[1][i]);
+    return mean;
 }
 
-/// What is judged: irradiance on six sides of every free probe.
-DayRows day_rows(const ProbeDay& light, std::size_t free, const DaySolution& day, std::span<const Keyframe> keyframes) {
-    DayRows rows;
-    rows.count = kSides.size() * free;
-    for (const Keyframe& keyframe : keyframes) rows.hours.push_back(day.basis.columns.hours[keyframe.hour]);
-    for (const Keyframe& keyframe : keyframes)
-        rows.exposure.push_back(std::max(day.mean_luminance(keyframe.hour, keyframe.scales), kDarkestExposure));
-    rows.read = [&light](std::size_t row, Rgb* values) {
-        for (std::size_t k = 0; k < light.keyframes; ++k)
-            values[k] = irradiance(light.at(row / kSides.size(), k), kSides[row % kSides.size()]);
-    };
+/// Rows of irradiance on six sides of places here and there in free space, in the gather's components.
+std::vector<Rgb> pilot_rows(const ProbeGather& gather, const FreeSpace& space, const std::vector<Bounds>& regions,
+                            std::size_t components, const VolumeSettings& settings) {
+    Bounds all = space.box();
+    for (const Bounds& b : regions)
+        if (!b.empty()) all.add(b.min), all.add(b.max);
+    std::vector<Vec3> places;
+    Random random(settings.seed, 0, 11);
+    for (int tries = 0; tries < 100 * kPilots && int(places.size()) < kPilots && !all.empty(); ++tries) {
+        const Vec3 place = all.min + Vec3(random.next(), random.next(), random.next()) * (all.max - all.min);
+        const bool outside = space.box().empty() || glm::any(glm::lessThan(place, space.box().min)) ||
+                             glm::any(glm::greaterThan(place, space.box().max));
+        if (outside || space.reachable(place)) places.push_back(place);
+    }
+    std::vector<Rgb> rows(places.size() * kSides.size() * components, Rgb(0.0f));
+    tbb::parallel_for(std::size_t(0), places.size(), [&](std::size_t p) {
+        const ProbeLight light =
+            gather.at(places[p], p, {.rays = settings.rays, .change = ProbeChange::None, .seed = settings.seed + 1});
+        const std::vector<float> mean = mean_of_halves(light);
+        for (std::size_t side = 0; side < kSides.size(); ++side) {
+            const glsl::Sh9 lobe = glsl::sh_irradiance_weights(kSides[side]);
+            for (std::size_t i = 0; i < kNumbers; ++i)
+                for (std::size_t r = 0; r < components; ++r)
+                    rows[(p * kSides.size() + side) * components + r][glm::length_t(i % 3)] +=
+                        lobe.c[i / 3] * mean[i * components + r];
+        }
+    });
     return rows;
 }
 
-/// Component coefficients of every free probe: [probe][coefficient][component].
-std::vector<Rgb> project_all(const TimeBasis& basis, const ProbeDay& light, std::size_t free) {
-    const std::size_t components = std::size_t(basis.components), keyframes = basis.hours.size();
-    std::vector<Rgb> result(free * kCoefficients * components);
-    tbb::parallel_for(std::size_t(0), free, [&](std::size_t f) {
-        std::vector<Rgb> series(keyframes);
-        for (std::size_t i = 0; i < kCoefficients; ++i) {
-            for (std::size_t k = 0; k < keyframes; ++k) series[k] = light.at(f, k)[i];
-            project(basis, series.data(), result.data() + (f * kCoefficients + i) * components);
-        }
-    });
+/// Moments spread over those that there are.
+std::vector<Moment> judged_moments(std::span<const Moment> moments) {
+    const std::size_t count = std::min(moments.size(), kJudgedMoments);
+    std::vector<Moment> result;
+    for (std::size_t i = 0; i < count; ++i) result.push_back(moments[(2 * i + 1) * moments.size() / (2 * count)]);
     return result;
 }
 
-/// For every probe of the grid the free one whose light it shows: itself, or one of the nearest, by breadth-first
-/// search over six neighbours. Between several the darkest: a wall's probes then show its darker side, since in a dark
-/// room leaked daylight is seen, and missing skylight at a bright wall is not. ~0u everywhere when none is free.
-std::vector<std::uint32_t> shown_probes(const ProbeGrid& grid, const std::vector<std::uint32_t>& free_of_probe,
-                                        const std::vector<double>& brightness) {
-    std::vector<std::uint32_t> shown = free_of_probe;
-    const std::array<std::size_t, 3> stride = {1, std::size_t(grid.size[0]),
-                                               std::size_t(grid.size[0]) * std::size_t(grid.size[1])};
-    bool changed = true;
-    while (changed) {
-        changed = false;
-        std::vector<std::uint32_t> next = shown;
-        for (std::size_t p = 0; p < shown.size(); ++p) {
-            if (shown[p] != ~0u) continue;
-            for (std::size_t a = 0; a < 3; ++a) {
-                const std::size_t at = p / stride[a] % std::size_t(grid.size[a]);
-                for (const bool up : {false, true}) {
-                    if (up ? at + 1 == std::size_t(grid.size[a]) : at == 0) continue;
-                    const std::uint32_t other = shown[up ? p + stride[a] : p - stride[a]];
-                    if (other == ~0u || (next[p] != ~0u && brightness[next[p]] <= brightness[other])) continue;
-                    next[p] = other;
-                    changed = true;
+/// Luminance of irradiance on six sides at several moments, over exposure: [side][moment], as sums over light's
+/// numbers.
+class Judge {
+  public:
+    Judge(const LightBasis& basis, std::span<const Moment> moments) : components_(std::size_t(basis.components)) {
+        for (const Moment& m : moments) {
+            weights_.push_back(basis.weights(m.scales, m.hour));
+            for (Rgb& w : weights_.back()) w *= Vec3(0.2126f, 0.7152f, 0.0722f) / float(m.exposure);
+        }
+    }
+    std::size_t functionals() const { return kSides.size() * weights_.size(); }
+
+    /// Of `parts` parts: [part][functional].
+    std::vector<float> operator()(const float* light, std::size_t parts) const {
+        std::vector<float> result(parts * functionals(), 0.0f);
+        for (std::size_t part = 0; part < parts; ++part)
+            for (std::size_t m = 0; m < weights_.size(); ++m) {
+                std::array<float, 9> sh{};
+                for (std::size_t i = 0; i < kNumbers; ++i) {
+                    const float* row = light + (part * kNumbers + i) * components_;
+                    for (std::size_t r = 0; r < components_; ++r)
+                        sh[i / 3] += weights_[m][r][glm::length_t(i % 3)] * row[r];
+                }
+                for (std::size_t side = 0; side < kSides.size(); ++side) {
+                    const glsl::Sh9 lobe = glsl::sh_irradiance_weights(kSides[side]);
+                    for (std::size_t i = 0; i < 9; ++i)
+                        result[part * functionals() + side * weights_.size() + m] += lobe.c[i] * sh[i];
+                }
+            }
+        return result;
+    }
+
+  private:
+    std::size_t components_;
+    std::vector<std::vector<Rgb>> weights_;
+};
+
+VolumeSample sample(const ProbeGather& gather, const Turn& turn, const Judge& judge, const Vec3& place,
+                    std::uint64_t key, const VolumeSettings& settings) {
+    const ProbeLight light = gather.at(place, key, {.rays = settings.rays, .seed = settings.seed});
+    VolumeSample result;
+    const std::array<std::vector<float>, 2> half = {turn(light.half[0]), turn(light.half[1])};
+    std::vector<float> apart(half[0].size());
+    result.light.resize(half[0].size());
+    for (std::size_t i = 0; i < apart.size(); ++i) {
+        result.light[i] = 0.5f * (half[0][i] + half[1][i]);
+        apart[i] = 0.5f * (half[0][i] - half[1][i]);
+    }
+    result.judged = judge(result.light.data(), 4);
+    const std::vector<float> noise = judge(apart.data(), 4);
+    const std::size_t functionals = judge.functionals();
+    // One difference tells little about one functional; all together tell how noisy this place is.
+    double of_value = 0.0, of_change = 0.0, bright = 0.0;
+    for (std::size_t f = 0; f < functionals; ++f) {
+        of_value += double(noise[f]) * double(noise[f]);
+        bright += double(result.judged[f]) * double(result.judged[f]);
+        for (std::size_t a = 1; a < 4; ++a)
+            of_change += double(noise[a * functionals + f]) * double(noise[a * functionals + f]) / 3.0;
+    }
+    const double relative = bright > 0.0 ? std::sqrt(of_value / bright) : 0.0;
+    result.noise.resize(functionals);
+    for (std::size_t f = 0; f < functionals; ++f) result.noise[f] = float(relative) * std::abs(result.judged[f]);
+    result.change_noise = of_value > 0.0 ? float(std::sqrt(of_change / of_value)) : 0.0f;
+    result.nearness = light.nearness;
+    return result;
+}
+
+/// Takes away ringing (Sloan 2008): coefficients of band l over 1 + lambda l^2 (l + 1)^2, with the smallest lambda that
+/// keeps irradiance on every side at every judged moment from falling below zero by more than a share of the brightest
+/// side's: what little is left, look-ups cut at zero, while a wider window would dim the bright side. Returns lambda.
+float window(float* record, std::size_t components, const Judge& judge) {
+    const std::size_t numbers = kNumbers * components;
+    std::vector<float> tried(record, record + numbers);
+    float lambda = 0.0f;
+    for (;;) {
+        const std::vector<float> judged = judge(tried.data(), 1);
+        const auto [least, most] = std::minmax_element(judged.begin(), judged.end());
+        if (*least >= -kCutShare * *most || lambda >= kMostWindow) break;
+        lambda = lambda == 0.0f ? 0.002f : 1.25f * lambda;
+        for (std::size_t i = 0; i < numbers; ++i) {
+            const std::size_t coefficient = i / components / 3;
+            const float l = coefficient == 0 ? 0.0f : coefficient < 4 ? 1.0f : 2.0f;
+            tried[i] = record[i] / (1.0f + lambda * l * l * (l + 1.0f) * (l + 1.0f));
+        }
+    }
+    if (lambda > 0.0f)
+        for (std::size_t part = 0; part < 4; ++part)
+            for (std::size_t i = 0; i < numbers; ++i) {
+                const std::size_t coefficient = i / components / 3;
+                const float l = coefficient == 0 ? 0.0f : coefficient < 4 ? 1.0f : 2.0f;
+                record[part * numbers + i] /= 1.0f + lambda * l * l * (l + 1.0f) * (l + 1.0f);
+            }
+    return lambda;
+}
+
+/// Records as the file keeps them.
+void quantise(const std::vector<float>& records, IrradianceVolume& volume) {
+    const std::size_t components = std::size_t(volume.basis.components), numbers = kNumbers * components;
+    const std::size_t count = volume.tree.samples;
+    const std::vector<float> sides = record_sides(volume.tree);
+    const auto number = [&](std::size_t s, std::size_t part, std::size_t i, std::size_t r) {
+        return records[(s * 4 + part) * numbers + i * components + r];
+    };
+    volume.values.resize(count * numbers);
+    volume.changes.resize(3 * count * numbers);
+    volume.change_scale.assign(numbers, 0.0f);
+    for (std::size_t r = 0; r < components; ++r) {
+        float largest = 0.0f;
+        for (std::size_t s = 0; s < count; ++s)
+            for (std::size_t i = 0; i < kNumbers; ++i) largest = std::max(largest, std::abs(number(s, 0, i, r)));
+        const float scale = largest > 0.0f ? largest / kLargestHalf : 1.0f;
+        for (std::size_t c = 0; c < volume.basis.columns(); ++c)
+            volume.basis.curves[r * volume.basis.columns() + c] *= scale;
+        for (std::size_t i = 0; i < kNumbers; ++i) {
+            float steepest = 0.0f;
+            for (std::size_t s = 0; s < count; ++s)
+                for (std::size_t a = 1; a < 4; ++a)
+                    steepest = std::max(steepest, std::abs(number(s, a, i, r)) * sides[s]);
+            volume.change_scale[r * kNumbers + i] = steepest / scale;
+            for (std::size_t s = 0; s < count; ++s) {
+                volume.values[(r * kNumbers + i) * count + s] = glm::packHalf1x16(number(s, 0, i, r) / scale);
+                for (std::size_t a = 0; a < 3; ++a)
+                    volume.changes[((r * 3 + a) * kNumbers + i) * count + s] =
+                        steepest > 0.0f
+                            ? std::int8_t(std::lround(127.0f * number(s, a + 1, i, r) * sides[s] / steepest))
+                            : 0;
+            }
+        }
+    }
+}
+
+/// RMS over mean of irradiance at all places that were measured inside cells.
+double measure(const OctreeCells& cells, const RefinedVolume& refined, const IrradianceVolume& volume,
+               const LightBasis& dense, std::span<const Moment> moments) {
+    const Judge stated(dense, moments);
+    double wrong = 0.0, mean = 0.0;
+    std::size_t count = 0;
+    for (std::size_t m = 0; m < moments.size(); ++m) {
+        const VolumeLight light(volume, volume.basis.weights(moments[m].scales, moments[m].hour));
+        const glsl::VolumeArrays arrays = light.arrays();
+        for (std::uint32_t c = 0; c < cells.cells.size(); ++c) {
+            const RefinedLeaf& leaf = refined.leaves.at(cells.cells[c].leaf);
+            for (int p = 0; p < kLeafPlaces; ++p) {
+                const int s = refined.places.places[leaf.place[std::size_t(p)]].sample;
+                if (leaf.side[std::size_t(p)] != cells.cells[c].side || s < 0 ||
+                    (p % 3 != 1 && p / 3 % 3 != 1 && p / 9 != 1))
+                    continue;
+                const glsl::VolumeSh sh = glsl::volume_sh(arrays, {c, 0.5f * Vec3(p % 3, p / 3 % 3, p / 9)});
+                for (std::size_t side = 0; side < kSides.size(); ++side) {
+                    const double found =
+                        double(luminance(glsl::volume_irradiance(sh, kSides[side], 1.0f))) / moments[m].exposure;
+                    const double truth =
+                        double(refined.places.samples[std::size_t(s)].judged[side * moments.size() + m]);
+                    wrong += (found - truth) * (found - truth), mean += truth, ++count;
                 }
             }
         }
-        shown = std::move(next);
     }
-    return shown;
-}
-
-/// Mean over the day of what a free probe gets from all sides, as the adapted eye sees it.
-std::vector<double> brightness_of(const DayRows& rows) {
-    std::vector<double> result(rows.count / kSides.size(), 0.0);
-    std::vector<Rgb> keyframes(rows.hours.size());
-    for (std::size_t row = 0; row < rows.count; ++row) {
-        rows.read(row, keyframes.data());
-        for (std::size_t k = 0; k < keyframes.size(); ++k)
-            result[row / kSides.size()] += luminance(keyframes[k]) / rows.exposure[k];
-    }
-    return result;
+    return mean > 0.0 ? std::sqrt(wrong * double(count)) / mean : 0.0;
 }
 
 }  // namespace
 
-EncodedVolume encode_volume(const ProbeGrid& grid, const ProbeHits& probes, const DaySolution& day,
-                            std::span<const Keyframe> keyframes, const TimeBasisSettings& settings) {
-    std::vector<std::uint32_t> free, free_of_probe(grid.count(), ~0u);
-    for (std::uint32_t p = 0; p < probes.count(); ++p)
-        if (!probes.buried[p]) free_of_probe[grid.wanted[p]] = std::uint32_t(free.size()), free.push_back(p);
-
-    const ProbeDay light = probe_day(day, probes, keyframes, free);
-    const DayRows rows = day_rows(light, free.size(), day, keyframes);
-    const TimeBasis basis = fit_time_basis(rows, settings);
-    const std::size_t components = std::size_t(basis.components);
-    const std::vector<Rgb> values = project_all(basis, light, free.size());
-    const std::vector<float> scale = component_scales(values, basis.components);
-    const std::vector<std::uint16_t> halves = to_halves(values, scale);
-
+EncodedVolume encode_volume(const Scene& scene, const GatherScene& gather, const GatherHits& hits,
+                            const LightBasis& light, const LeavingLight& leaving, std::span<const Moment> moments,
+                            const VolumeSettings& settings, const BasisSettings& basis_settings,
+                            const StageProgress& progress) {
     EncodedVolume result;
-    result.buried = probes.count() - free.size();
-    IrradianceVolume& volume = result.volume;
-    volume.origin = grid.origin, volume.spacing = grid.spacing, volume.size = grid.size;
-    volume.basis = day_basis(basis, scale);
-    const std::vector<std::uint32_t> shown = shown_probes(grid, free_of_probe, brightness_of(rows));
-    volume.components.assign(3 * kCoefficients * components * shown.size(), 0);
-    for (std::size_t r = 0; r < components; ++r)
-        for (std::size_t i = 0; i < kCoefficients; ++i)
-            for (std::size_t p = 0; p < shown.size(); ++p)
-                if (shown[p] != ~0u)
-                    std::copy_n(
-                        halves.begin() + std::ptrdiff_t(3 * ((shown[p] * kCoefficients + i) * components + r)), 3,
-                        volume.components.begin() + std::ptrdiff_t(3 * ((r * kCoefficients + i) * shown.size() + p)));
-
-    result.error = measure_error(rows, volume.basis, [&](std::size_t row, std::span<const float> weights) {
-        const Vec3& side = kSides[row % kSides.size()];
-        const std::uint32_t probe = grid.wanted[free[row / kSides.size()]];
-        return volume.irradiance(grid.position(probe), side, weights);
-    });
+    const std::vector<Bounds> regions = swept_boxes(scene);
+    const FreeSpace space = reachable_space(scene, gather.rays, regions);
+    const ProbeGather probes(gather, hits, leaving);
+    const std::vector<Rgb> pilots = pilot_rows(probes, space, regions, leaving.components, settings);
+    const JudgedBasis basis =
+        judge_basis({.light = light, .rows = pilots, .moments = {moments.begin(), moments.end()}}, basis_settings);
+    const std::vector<Moment> judged = judged_moments(moments);
+    const Judge judge(basis.dense, judged);
+    const Turn turn(basis.turn);
+    const RefinedVolume refined = refine_volume(
+        gather.rays, space, regions,
+        [&](const Vec3& place, std::uint64_t key) { return sample(probes, turn, judge, place, key, settings); },
+        settings, {progress.report, progress.begin, 0.2 * progress.begin + 0.8 * progress.end});
+    const OctreeCells cells = make_cells(refined.octree, same_light_by_rays(refined, space));
+    const std::size_t components = std::size_t(basis.stored.components);
+    VolumeFit fit = fit_volume(cells, refined, kNumbers * components);
+    for (std::size_t s = 0; s < cells.samples.size(); ++s)
+        result.window = std::max(result.window,
+                                 double(window(fit.records.data() + 4 * s * kNumbers * components, components, judge)));
+    result.volume.tree = cells.tree;
+    result.volume.basis = basis.stored;
+    quantise(fit.records, result.volume);
+    result.error = measure(cells, refined, result.volume, basis.dense, judged);
+    result.samples = refined.places.samples.size();
+    result.unmeasured = fit.unmeasured;
+    result.budget_spent = refined.budget_spent;
+    progress.at(1.0);
     return result;
 }
 

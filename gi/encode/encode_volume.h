@@ -1,26 +1,25 @@
 #pragma once
-// The day's radiance at probes as the volume that the runtime reads.
+// The day's light in free space as the volume that the runtime reads.
 #include "engine/baked/irradiance_volume.h"
-#include "gi/encode/time_basis.h"
-#include "gi/surface/probe_grid.h"
-#include "gi/transport/day_gather/day_gather.h"
+#include "gi/encode/judged_basis.h"
+#include "gi/encode/volume_refine.h"
+#include "gi/transport/day_gather/probe_light.h"
 
 namespace daylit {
 
-/// An hour of a solution, and the parts' scales in its weather.
-struct Keyframe {
-    std::size_t hour = 0;  // of DayColumns::hours
-    LightScales scales;
-};
-
 struct EncodedVolume {
     IrradianceVolume volume;
-    double error = 0.0;      // of the encoding alone, measured on the halves: worst keyframe's irradiance, relative
-    std::size_t buried = 0;  // probes that were traced and found inside solid geometry
+    double error =
+        0.0;  // of places measured inside cells against what the volume gives there at judged moments: RMS over mean
+    std::size_t samples = 0;     // traced
+    std::size_t unmeasured = 0;  // records whose corner lies in a wall
+    double window = 0.0;         // largest lambda of the windows that took away negative light
+    bool budget_spent = false;   // cells ran out before errors did
 };
 
-/// probes     the grid's wanted ones, in their order
-EncodedVolume encode_volume(const ProbeGrid& grid, const ProbeHits& probes, const DaySolution& day,
-                            std::span<const Keyframe> keyframes, const TimeBasisSettings& settings);
+/// Where light is wanted: what cameras and moving things can reach, and open air.
+EncodedVolume encode_volume(const Scene& scene, const GatherScene& gather, const GatherHits& hits,
+                            const LightBasis& light, const LeavingLight& leaving, std::span<const Moment> moments,
+                            const VolumeSettings& settings, const BasisSettings& basis, const StageProgress& progress);
 
 }  // namespace daylit

@@ -55,12 +55,6 @@ struct MaterialBlock {
     vec4 uv_sets;          // 0 or 1: base, metallic-roughness, normal, emission
 };
 
-// The grid of an irradiance volume.
-struct VolumeBlock {
-    vec4 origin;  // of the first probe; w: 1 / metres between probes
-    vec4 size;    // probes along x, y, z
-};
-
 SHARED_END
 #ifdef __cplusplus
 namespace daylit::glsl {
@@ -68,7 +62,6 @@ static_assert(sizeof(SunBlock) == 5 * 16);
 static_assert(sizeof(FrameBlock) == 2 * 64 + 4 * 16 + 4 * sizeof(SunBlock) + 16 * 16);
 static_assert(sizeof(LampBlock) == 5 * 16);
 static_assert(sizeof(MaterialBlock) == 13 * 16);
-static_assert(sizeof(VolumeBlock) == 2 * 16);
 }  // namespace daylit::glsl
 #endif
 #endif

@@ -5,7 +5,7 @@
 SHARED_BEGIN
 
 const int kLightmapTileSide = 16;  // texels that share their patterns, along either side of the atlas
-const int kLightmapPatterns = 16;  // of a tile, at most; each texel has one number a pattern
+const int kLightmapPatterns = 24;  // of a tile, at most; one number a texel, so as many numbers as eight RGB images
 
 SHARED_END
 #endif

@@ -27,10 +27,6 @@ Vec3 random_place(Random& random) {
     return Vec3(random.next(), random.next(), random.next());
 }
 
-std::uint32_t record_of(const glsl::VolumeCell& cell, int corner) {
-    return corner < 4 ? cell.low[corner] : cell.high[corner - 4];
-}
-
 /// RMS error over the unit cell's surroundings of a blend of exact corners, cells of this side.
 double rms(VolumeBlend blend, float side) {
     Random random(7, 0, 0);

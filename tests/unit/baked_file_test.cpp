@@ -12,6 +12,8 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 
+#include "tests/support/volume_builder.h"
+
 namespace daylit {
 namespace {
 
@@ -60,13 +62,13 @@ Baked small_bake() {
     basis.suns = 1, basis.skies = 3;
     basis.sky_level = {1.0f, 100.0f, 1.0f};
     basis.components = 2;
-    basis.curves = {0.5f, 1.0f, 2.0f, 1.0f, 3.0f, 0.0f, 0.0f, 0.0f, 0.0f,    // S, K at three hours, O, G, N, V, C
+    basis.curves = {0.5f, 1.0f,  2.0f, 1.0f, 3.0f, 0.0f, 0.0f, 0.0f, 0.0f,  // S, K at three hours, O, G, N, V, C
                     0.0f, -1.0f, 0.0f, 5.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.25f};
     map.tile_patterns = {2};
     map.scales = {1.0f, 0.5f};
     map.patterns = {1, 0, 2, 0, 4, 0,   // the first shines as the first component: red, twice as much green, four times
                     0, 2, 0, 4, 0, 8};  // as much blue; the other as half the second
-    map.values = {1, 2, 3, 16,          // pattern 0, texels in row order; the last is a quarter of this
+    map.values = {1,  2, 3, 16,         // pattern 0, texels in row order; the last is a quarter of this
                   10, 0, 0, -4};        // pattern 1
     map.exponents = {0, 0, 0, 1};
     map.error = 0.01;
@@ -75,15 +77,9 @@ Baked small_bake() {
     return baked;
 }
 
-/// Two probes, one component, one keyframe.
+/// Two cells, one component, one keyframe.
 IrradianceVolume small_volume() {
-    IrradianceVolume volume;
-    volume.origin = {1, 2, 3};
-    volume.spacing = 0.75f;
-    volume.size = {2, 1, 1};
-    volume.basis = {{12.0}, 1, {100.0f}};
-    for (int i = 0; i < 3 * 9 * 2; ++i) volume.components.push_back(glm::packHalf1x16(float(i)));
-    return volume;
+    return volume_of(Vec3(1, 2, 3), {2, 1, 1}, [](int record, int i, int c) { return record + 10 * i + c; });
 }
 
 void expect_same(const Baked& a, const Baked& b) {
@@ -117,7 +113,8 @@ void expect_same(const Baked& a, const Baked& b) {
 }
 
 TEST_F(BakedFile, RoundTripsAndCountsItsBytes) {
-    // To freeze a new version: DAYLIT_FREEZE=tests/frozen/version_N.daylit test_unit --gtest_filter='BakedFile.RoundTrips*'
+    // To freeze a new version: DAYLIT_FREEZE=tests/frozen/version_N.daylit test_unit
+    // --gtest_filter='BakedFile.RoundTrips*'
     if (const char* frozen = std::getenv("DAYLIT_FREEZE")) write_baked(frozen, small_bake());
     write_baked(path(), small_bake());
     const Baked read = read_baked(path());
@@ -143,13 +140,22 @@ TEST_F(BakedFile, VolumeRoundTrips) {
         const Baked read = read_baked(path());
         EXPECT_EQ(read.lightmap.has_value(), with_lightmap);
         ASSERT_TRUE(read.volume);
-        EXPECT_EQ(read.volume->origin, baked.volume->origin);
-        EXPECT_EQ(read.volume->spacing, baked.volume->spacing);
-        EXPECT_EQ(read.volume->size, baked.volume->size);
-        EXPECT_EQ(read.volume->basis.hours, baked.volume->basis.hours);
-        EXPECT_EQ(read.volume->basis.components, baked.volume->basis.components);
+        const VolumeTree &tree = read.volume->tree, &expected = baked.volume->tree;
+        EXPECT_EQ(tree.origin, expected.origin);
+        EXPECT_EQ(tree.side, expected.side);
+        EXPECT_EQ(tree.size, expected.size);
+        EXPECT_EQ(tree.nodes, expected.nodes);
+        EXPECT_EQ(tree.samples, expected.samples);
+        ASSERT_EQ(tree.cells.size(), expected.cells.size());
+        for (std::size_t c = 0; c < tree.cells.size(); ++c) {
+            EXPECT_EQ(tree.cells[c].box, expected.cells[c].box);
+            EXPECT_EQ(tree.cells[c].low, expected.cells[c].low);
+            EXPECT_EQ(tree.cells[c].high, expected.cells[c].high);
+        }
         EXPECT_EQ(read.volume->basis.curves, baked.volume->basis.curves);
-        EXPECT_EQ(read.volume->components, baked.volume->components);
+        EXPECT_EQ(read.volume->values, baked.volume->values);
+        EXPECT_EQ(read.volume->changes, baked.volume->changes);
+        EXPECT_EQ(read.volume->change_scale, baked.volume->change_scale);
         EXPECT_GT(read.plan[1].bytes, 0u);
     }
 }
@@ -205,8 +211,8 @@ TEST_F(BakedFile, ImpossibleContentsAreRefused) {
     expect_refused([](Baked& b) { b.lightmap->basis.sky_level[0] = 0.0f; });
     expect_refused([](Baked& b) { b.lightmap->basis.suns = 2, b.lightmap->basis.curves.resize(20); });
     expect_refused([](Baked& b) {
-        b.lightmap->tile_patterns[0] = 17, b.lightmap->scales.resize(17);
-        b.lightmap->patterns.resize(6 * 17), b.lightmap->values.resize(4 * 17);
+        b.lightmap->tile_patterns[0] = 25, b.lightmap->scales.resize(25);
+        b.lightmap->patterns.resize(6 * 25), b.lightmap->values.resize(4 * 25);
     });
     expect_refused([](Baked& b) { b.lightmap->tile_patterns.push_back(0); });
     expect_refused([](Baked& b) { b.lightmap->values[3] = 2048; });
@@ -217,12 +223,15 @@ TEST_F(BakedFile, ImpossibleContentsAreRefused) {
     expect_refused([](Baked& b) { b.lightmap->width = 0; });
     expect_refused([](Baked& b) { b.lightmap->corner_uvs[1].x = 1.5f; });
     expect_refused([](Baked& b) { b.lightmap->corner_uvs.pop_back(); });
-    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->spacing = 0.0f; });
-    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->size[1] = 0; });
-    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->size = {4096, 4096, 4096}; });
-    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->components.pop_back(); });
-    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->components[5] = 0x7C00; });
-    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->basis.curves.push_back(1.0f); });
+    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->tree.side = 0.0f; });
+    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->tree.size[1] = 0; });
+    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->tree.size = {4096, 4096, 4096}; });
+    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->tree.cells.clear(); });
+    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->tree.cells[1].high.z = 12; });
+    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->tree.nodes[1] = 0; });
+    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->values.pop_back(); });
+    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->values[5] = 0x7C00; });
+    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->change_scale[5] = INFINITY; });
     expect_refused([](Baked& b) { b.light.turbidity = INFINITY; });
     expect_refused([](Baked& b) { b.light.sky = SkySource(200); });
 }
@@ -277,27 +286,6 @@ TEST(IntegerCoding, EveryNumberComesBack) {
     put_integers(w, values);
     ByteReader r(w.take(), "a file", "a section");
     EXPECT_EQ(get_integers(r, values.size()), values);
-}
-
-TEST(DayBasis, WeightsAreLinearBetweenKeyframesAndHeldOutside) {
-    const DayBasis basis{{6.0, 12.0, 18.0}, 2, {0.0f, 1000.0f, 0.0f, 1.0f, 1.0f, 5.0f}};
-    EXPECT_EQ(basis.weights(12.0), (std::vector<float>{1000.0f, 1.0f}));
-    EXPECT_EQ(basis.weights(9.0), (std::vector<float>{500.0f, 1.0f}));
-    EXPECT_EQ(basis.weights(16.5), (std::vector<float>{250.0f, 4.0f}));
-    EXPECT_EQ(basis.weights(3.0), (std::vector<float>{0.0f, 1.0f}));
-    EXPECT_EQ(basis.weights(23.0), (std::vector<float>{0.0f, 5.0f}));
-}
-
-TEST(DayBasis, HoursWrap) {
-    const DayBasis basis{{6.0, 12.0, 18.0}, 2, {0.0f, 1000.0f, 0.0f, 1.0f, 1.0f, 5.0f}};
-    EXPECT_EQ(basis.weights(9.0 + 48.0), basis.weights(9.0));
-    EXPECT_EQ(basis.weights(9.0 - 24.0), basis.weights(9.0));
-    EXPECT_EQ(basis.weights(-1e-30), basis.weights(0.0));
-}
-
-TEST(DayBasis, OneKeyframeNeverChanges) {
-    const DayBasis basis{{12.0}, 1, {7.0f}};
-    for (double hour : {0.0, 11.9, 12.0, 23.9}) EXPECT_EQ(basis.weights(hour), std::vector<float>{7.0f});
 }
 
 TEST(DayLightmap, FetchesBilinearly) {

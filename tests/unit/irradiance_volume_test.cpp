@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <glm/gtc/packing.hpp>
 
 #include "shaders/shared/sh.h"
+#include "tests/support/volume_builder.h"
 
 namespace daylit {
 namespace {
@@ -22,20 +22,11 @@ const std::vector<Vec3> kNormals = {Vec3(1, 0, 0),
                                     glm::normalize(Vec3(1, 2, 3)),
                                     glm::normalize(Vec3(-2, 1, -0.5f))};
 
-/// 2 x 2 x 2 probes a metre apart from (1, 2, 3) on; value(probe, coefficient) of the one component.
+/// One cell of a metre from (1, 2, 3) on; value(record, coefficient).
 template <class Value>
-IrradianceVolume volume_of(const Value& value) {
-    IrradianceVolume volume;
-    volume.origin = Vec3(1, 2, 3);
-    volume.size = {2, 2, 2};
-    volume.basis = {{12.0}, 1, {1.0f}};
-    for (int i = 0; i < kShCoefficients; ++i)
-        for (int probe = 0; probe < 8; ++probe)
-            for (int c = 0; c < 3; ++c) volume.components.push_back(glm::packHalf1x16(value(probe, i)));
-    return volume;
+IrradianceVolume cell_of(const Value& value) {
+    return volume_of(Vec3(1, 2, 3), {1, 1, 1}, [&](int record, int i, int) { return value(record, i); });
 }
-
-const std::vector<float> kOne = {1.0f};
 
 /// Numeric sums over the sphere, exact for these low degrees to about 1e-5.
 template <class F>
@@ -72,9 +63,9 @@ TEST(SphericalHarmonics, have_their_documented_order_and_signs) {
 // L is the same from everywhere: its one coefficient is L sqrt(4 pi), and E = pi L on every plane.
 TEST(IrradianceVolume, constant_light_gives_pi_l_on_every_plane) {
     const double radiance = 100.0;
-    const auto volume = volume_of([&](int, int i) { return i == 0 ? float(radiance * std::sqrt(4.0 * kPi)) : 0.0f; });
+    const auto volume = cell_of([&](int, int i) { return i == 0 ? float(radiance * std::sqrt(4.0 * kPi)) : 0.0f; });
     for (const Vec3& n : kNormals)
-        EXPECT_NEAR(volume.irradiance(Vec3(1.3f, 2.6f, 3.9f), n, kOne).g, kPi * radiance, 0.001 * kPi * radiance);
+        EXPECT_NEAR(light_of(volume).irradiance(Vec3(1.3f, 2.6f, 3.9f), n).g, kPi * radiance, 0.001 * kPi * radiance);
 }
 
 // L(d) = 1 + d.a: E(n) = pi + 2 pi / 3 n.a (the cosine integrated over the hemisphere).
@@ -84,40 +75,71 @@ TEST(IrradianceVolume, light_that_grows_along_an_axis) {
     for (int i = 0; i < kShCoefficients; ++i)
         sh[std::size_t(i)] =
             over_sphere([&](const Vec3& d) { return (1.0 + glm::dot(d, axis)) * glsl::sh_basis(d).c[i]; });
-    const auto volume = volume_of([&](int, int i) { return float(sh[std::size_t(i)]); });
+    const auto volume = cell_of([&](int, int i) { return float(sh[std::size_t(i)]); });
     for (const Vec3& n : kNormals)
-        EXPECT_NEAR(volume.irradiance(Vec3(1.5f), n, kOne).r, kPi + 2.0 * kPi / 3.0 * glm::dot(n, axis), 0.01);
+        EXPECT_NEAR(light_of(volume).irradiance(Vec3(1.5f), n).r, kPi + 2.0 * kPi / 3.0 * glm::dot(n, axis), 0.01);
 }
 
-TEST(IrradianceVolume, mixes_probes_trilinearly_and_holds_the_border) {
-    // Probe p has light p: 1 along x, 2 along y, 4 along z.
-    const auto volume = volume_of([](int p, int i) { return i == 0 ? float(p) : 0.0f; });
+// Without changes at corners Adini's blend is 3 u^2 - 2 u^3 along an edge; beside the cell the border holds.
+TEST(IrradianceVolume, blends_corners_and_holds_the_border) {
+    const auto volume =
+        cell_of([](int p, int i) { return i == 0 ? float(p) : 0.0f; });  // 1 along x, 2 along y, 4 along z
+    const VolumeLight light = light_of(volume);
     const double unit = kPi * 0.282094792;
-    const auto at = [&](const Vec3& place) { return volume.irradiance(place, Vec3(0, 1, 0), kOne).b / unit; };
+    const auto at = [&](const Vec3& place) { return light.irradiance(place, Vec3(0, 1, 0)).b / unit; };
     EXPECT_NEAR(at({1, 2, 3}), 0.0, 1e-6);
     EXPECT_NEAR(at({2, 3, 4}), 7.0, 1e-5);
-    EXPECT_NEAR(at({1.25f, 2.5f, 3.75f}), 0.25 + 2 * 0.5 + 4 * 0.75, 1e-5);
+    EXPECT_NEAR(at({1.25f, 2, 3}), 3 * 0.0625 - 2 * 0.015625, 1e-5);
+    EXPECT_NEAR(at({1.5f, 2.5f, 3.5f}), 3.5, 1e-5);
     EXPECT_NEAR(at({-50, 100, 3.5f}), 0.0 + 2.0 + 2.0, 1e-5);
 }
 
-TEST(IrradianceVolume, is_never_negative) {
-    const auto volume =
-        volume_of([](int, int i) { return i == 1 ? 1.0f : 0.0f; });  // light from above, "less than none" from below
-    EXPECT_GT(volume.irradiance(Vec3(1.5f), Vec3(0, 1, 0), kOne).r, 0.9f);
-    EXPECT_EQ(volume.irradiance(Vec3(1.5f), Vec3(0, -1, 0), kOne), Rgb(0.0f));
+// A change of 2 per metre along x, stored as steps of a scale, makes light linear there.
+TEST(IrradianceVolume, changes_at_corners_count) {
+    auto volume = cell_of([](int p, int i) { return i == 0 ? float(2 * (p & 1)) : 0.0f; });
+    for (int i = 0; i < 3; ++i) volume.change_scale[std::size_t(i)] = 2.0f;
+    for (int i = 0; i < 3; ++i)
+        for (std::size_t s = 0; s < 8; ++s) volume.changes[std::size_t(i) * 8 + s] = 127;
+    const VolumeLight light = light_of(volume);
+    for (const float x : {0.0f, 0.2f, 0.7f, 1.0f})
+        EXPECT_NEAR(light.irradiance(Vec3(1 + x, 2.4f, 3.1f), Vec3(0, 1, 0)).g, 2.0 * double(x) * kPi * 0.282094792,
+                    1e-4);
 }
 
-TEST(IrradianceVolume, sums_its_components) {
-    auto volume = volume_of([](int, int i) { return i == 0 ? 2.0f : 0.0f; });
-    volume.basis = {{6.0, 18.0}, 2, {1.0f, 3.0f, 0.0f, 10.0f}};
-    const std::vector<std::uint16_t> first = volume.components;
-    volume.components.insert(volume.components.end(), first.begin(), first.end());
-    const auto weights = volume.basis.weights(12.0);
-    ASSERT_EQ(weights, (std::vector<float>{2.0f, 5.0f}));
-    const double expected = kPi * 0.282094792 * 2.0 * (2.0 + 5.0);
-    EXPECT_NEAR(volume.irradiance(Vec3(1.5f), Vec3(1, 0, 0), weights).r, expected, 1e-4);
-    EXPECT_NEAR(volume.combined(weights)[3].r, 14.0f, 1e-5);
-    EXPECT_EQ(volume.combined(weights)[8].r, 0.0f);
+TEST(IrradianceVolume, is_never_negative) {
+    // Light from above, "less than none" from below.
+    const auto volume = cell_of([](int, int i) { return i == 1 ? 1.0f : 0.0f; });
+    EXPECT_GT(light_of(volume).irradiance(Vec3(1.5f), Vec3(0, 1, 0)).r, 0.9f);
+    EXPECT_EQ(light_of(volume).irradiance(Vec3(1.5f), Vec3(0, -1, 0)), Rgb(0.0f));
+}
+
+TEST(IrradianceVolume, sums_its_components_each_with_its_colour) {
+    auto volume = cell_of([](int, int i) { return i == 0 ? 2.0f : 0.0f; });
+    const std::vector<std::uint16_t> values = volume.values;
+    volume.basis.components = 2;
+    volume.values.insert(volume.values.end(), values.begin(), values.end());
+    volume.changes.resize(2 * volume.changes.size(), 0);
+    volume.change_scale.resize(2 * volume.change_scale.size(), 0.0f);
+    const VolumeLight light(volume, std::vector<Rgb>{Rgb(2, 0, 1), Rgb(5, 1, 0)});
+    const double unit = kPi * 0.282094792 * 2.0;
+    const Rgb found = light.irradiance(Vec3(1.5f), Vec3(1, 0, 0));
+    EXPECT_NEAR(found.r, 7.0 * unit, 1e-4);
+    EXPECT_NEAR(found.g, 1.0 * unit, 1e-4);
+    EXPECT_NEAR(found.b, 1.0 * unit, 1e-4);
+}
+
+TEST(IrradianceVolume, many_places_at_once_are_as_each_alone) {
+    const auto volume = volume_of(Vec3(0.0f), {2, 1, 3},
+                                  [](int p, int i, int c) { return i == 0 ? 20 + p : 0.1f * float(p % 5 - i - c); });
+    const VolumeLight light = light_of(volume);
+    std::vector<Vec3> places, normals;
+    for (int i = 0; i < 20; ++i) {
+        places.push_back(Vec3(0.1f * float(i), 0.9f - 0.04f * float(i), 0.15f * float(i)));
+        normals.push_back(kNormals[std::size_t(i) % kNormals.size()]);
+    }
+    std::vector<Rgb> all(places.size());
+    light.irradiance(places, normals, all);
+    for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i], light.irradiance(places[i], normals[i]));
 }
 
 }  // namespace

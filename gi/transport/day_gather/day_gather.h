@@ -46,8 +46,8 @@ struct GatherHits {
 inline constexpr std::uint32_t kSkyBit = 1u << 31, kNoLight = ~0u;
 
 struct GatherSettings {
-    int rays = 96;        // per receiver
-    int bounces = 64;     // at most; ends earlier when the rest is below `rest` of all light
+    int rays = 96;     // per receiver
+    int bounces = 64;  // at most; ends earlier when the rest is below `rest` of all light
     double rest = 0.003;
     std::uint64_t seed = 1;
 };
@@ -63,25 +63,9 @@ struct GatherScene {
 GatherScene gather_scene(const RayScene& rays, const Atlas& atlas, const Texels& texels,
                          std::span<const PlacedLight> lamps);
 
-/// Rays of probes in free space, over the whole sphere.
-struct ProbeHits {
-    int rays = 0;                                // per probe
-    std::vector<Vec3> position;                  // of each probe
-    std::vector<std::uint32_t> hit;              // probes * rays, as GatherHits::hit
-    std::vector<Vec3> direction;                 // of each ray as it leaves the probe
-    std::vector<bool> buried;                    // per probe: inside solid geometry
-    std::vector<std::array<ByLit, 9>> emission;  // per probe: SH of radiance straight from emissive surfaces
-    std::size_t count() const { return position.size(); }
-};
-
 /// checkpoint   finished receivers are kept there, and those that it holds are not traced again
 GatherHits trace_hits(const GatherScene& scene, const GatherSettings& settings, Checkpoint& checkpoint,
                       const StageProgress& progress);
-
-/// The same question asked in free space: what they meet are the receivers of `hits`.
-/// rays   per probe
-ProbeHits trace_probes(const GatherScene& scene, const GatherHits& hits, std::span<const Vec3> positions, int rays,
-                       const GatherSettings& settings, const StageProgress& progress);
 
 /// Straight light of the punctual lamps on every receiver, lux.
 std::vector<ByLit> lamp_irradiance(const GatherScene& scene, const GatherHits& hits, const GatherSettings& settings,
@@ -95,8 +79,5 @@ std::vector<Rgb> sun_irradiance(const GatherScene& scene, const GatherHits& hits
 /// lamp_irradiance   straight light of punctual lamps on every receiver, lux
 DaySolution solve_day(const GatherScene& scene, const GatherHits& hits, std::span<const ByLit> lamp_irradiance,
                       const DayLight& light, const GatherSettings& settings, const StageProgress& progress);
-
-/// SH of *indirect* radiance at a probe, cd/m^2, by what its rays met: [coefficient][component] of day.basis.
-std::vector<Rgb> gather_probe(const DaySolution& day, const ProbeHits& probes, std::size_t probe);
 
 }  // namespace daylit

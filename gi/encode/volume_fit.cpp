@@ -1,0 +1,277 @@
+#include "gi/encode/volume_fit.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace daylit {
+namespace {
+
+constexpr int kSteps = 30;              // of conjugate gradients
+constexpr std::size_t kColumns = 64;    // solved together
+constexpr float kMostOfChange = 0.25f;  // weight of a change that rays told, against a value: silhouettes are not in it
+constexpr float kWeakly = 1e-2f;        // weight of guesses, which only decide what nothing was measured about
+
+/// Sparse rows: number i of a row counts weight times.
+struct Entry {
+    std::uint32_t unknown;
+    float weight;
+};
+using Row = std::vector<Entry>;
+
+void add_scaled(float factor, const Row& from, Row& to) {
+    for (const Entry& e : from) to.push_back({e.unknown, factor * e.weight});
+}
+
+/// Entries of one unknown become one.
+void tidy(Row& row) {
+    std::sort(row.begin(), row.end(), [](const Entry& a, const Entry& b) { return a.unknown < b.unknown; });
+    std::size_t kept = 0;
+    for (const Entry& e : row) {
+        if (kept > 0 && row[kept - 1].unknown == e.unknown)
+            row[kept - 1].weight += e.weight;
+        else
+            row[kept++] = e;
+    }
+    row.resize(kept);
+}
+
+struct Equation {
+    Row row;
+    float weight = 1.0f;
+    const float* value = nullptr;  // numbers; null: zero
+    float scale = 1.0f;            // of the values
+};
+
+Vec3 t_of(int place) {
+    return 0.5f * Vec3(place % 3, place / 3 % 3, place / 9);
+}
+
+class Fitter {
+  public:
+    Fitter(const OctreeCells& cells, const RefinedVolume& refined, std::size_t numbers)
+        : cells_(cells), refined_(refined), numbers_(numbers) {}
+
+    VolumeFit fit() {
+        find_sides();
+        expand_hanging();
+        state_corners();
+        state_insides();
+        guess_unmeasured();
+        VolumeFit result;
+        result.unmeasured = std::size_t(std::count(measured_.begin(), measured_.end(), nullptr));
+        result.records.assign(4 * cells_.samples.size() * numbers_, 0.0f);
+        const std::size_t blocks = (numbers_ + kColumns - 1) / kColumns;
+        tbb::parallel_for(std::size_t(0), blocks, [&](std::size_t b) {
+            solve(b * kColumns, std::min(numbers_, (b + 1) * kColumns), result.records);
+        });
+        return result;
+    }
+
+  private:
+    const RefinedLeaf& leaf(const LeafSide& side) const { return refined_.leaves.at(side.leaf); }
+    const VolumeSample* sample(const LeafSide& side, int place) const {
+        const RefinedLeaf& l = leaf(side);
+        if (l.side[std::size_t(place)] != side.side) return nullptr;
+        const int s = refined_.places.places[l.place[std::size_t(place)]].sample;
+        return s < 0 || refined_.places.samples[std::size_t(s)].inside ? nullptr
+                                                                       : &refined_.places.samples[std::size_t(s)];
+    }
+
+    /// Unknowns are values and changes over the side of the largest cell that has the record.
+    void find_sides() {
+        for (const SampledCorner& corner : cells_.samples)
+            side_.push_back(refined_.octree.side_of(refined_.octree.nodes[corner.seen_by[0].leaf]));
+    }
+
+    void expand_hanging() {
+        const VolumeTree& tree = cells_.tree;
+        rows_.resize(4 * tree.records());
+        for (std::uint32_t u = 0; u < 4 * tree.samples; ++u) rows_[u] = {{u, u % 4 == 0 ? 1.0f : 1.0f / side_[u / 4]}};
+        for (std::size_t h = 0; h < tree.hanging.size(); ++h)
+            for (std::size_t part = 0; part < 4; ++part) {
+                const glsl::VolumeCell& from = tree.cells[tree.hanging[h].cell[part]];
+                const Vec3& t = tree.hanging[h].t[part];
+                Row& row = rows_[4 * (tree.samples + h) + part];
+                for (int c = 0; c < 8; ++c)
+                    blend(from, c,
+                          part == 0 ? glsl::volume_corner_weights(c, t, from.box.w)
+                                    : corner_weights_change(c, t, from.box.w, int(part) - 1),
+                          row);
+                tidy(row);
+            }
+    }
+
+    void blend(const glsl::VolumeCell& cell, int corner, const Vec4& weights, Row& row) const {
+        for (int part = 0; part < 4; ++part)
+            if (weights[part] != 0.0f)
+                add_scaled(weights[part], rows_[4 * record_of(cell, corner) + std::size_t(part)], row);
+    }
+
+    void state_corners() {
+        for (std::uint32_t s = 0; s < cells_.samples.size(); ++s) {
+            const SampledCorner& corner = cells_.samples[s];
+            const VolumeSample* found = nullptr;
+            for (const LeafSide& side : corner.seen_by)
+                for (int p = 0; p < kLeafPlaces && !found; ++p)
+                    if (refined_.places.places[leaf(side).place[std::size_t(p)]].at == corner.at)
+                        found = sample(side, p);
+            measured_.push_back(found);
+            if (!found) continue;
+            equations_.push_back({{{4 * s, 1.0f}}, 1.0f, found->light.data(), 1.0f});
+            const float noise = found->change_noise * side_[s];
+            const float weight = noise > 0.0f ? std::min(kMostOfChange, 1.0f / (noise * noise)) : kMostOfChange;
+            for (std::uint32_t a = 1; a < 4; ++a)
+                equations_.push_back({{{4 * s + a, 1.0f}}, weight, found->light.data() + a * numbers_, side_[s]});
+        }
+    }
+
+    void state_insides() {
+        for (std::uint32_t c = 0; c < cells_.cells.size(); ++c)
+            for (int p = 0; p < kLeafPlaces; ++p) {
+                if (p % 3 != 1 && p / 3 % 3 != 1 && p / 9 != 1) continue;  // a corner, stated already
+                const VolumeSample* measured = sample(cells_.cells[c], p);
+                if (!measured) continue;
+                Equation equation{{}, 1.0f, measured->light.data(), 1.0f};
+                const glsl::VolumeCell& cell = cells_.tree.cells[c];
+                for (int corner = 0; corner < 8; ++corner)
+                    blend(cell, corner, glsl::volume_corner_weights(corner, t_of(p), cell.box.w), equation.row);
+                tidy(equation.row);
+                equations_.push_back(std::move(equation));
+            }
+    }
+
+    /// What nothing is measured about is even, and as bright as the nearest measured place of its cell.
+    void guess_unmeasured() {
+        for (std::uint32_t s = 0; s < cells_.samples.size(); ++s) {
+            if (measured_[s]) continue;
+            const SampledCorner& corner = cells_.samples[s];
+            const VolumeSample* nearest = nullptr;
+            double least = 1e30;
+            for (const LeafSide& side : corner.seen_by)
+                for (int p = 0; p < kLeafPlaces; ++p) {
+                    const Lattice& at = refined_.places.places[leaf(side).place[std::size_t(p)]].at;
+                    const double distance = glm::length(glm::dvec3(at - corner.at));
+                    if (distance < least && sample(side, p)) least = distance, nearest = sample(side, p);
+                }
+            guess_.emplace_back(s, nearest);
+            equations_.push_back({{{4 * s, 1.0f}}, kWeakly, nearest ? nearest->light.data() : nullptr, 1.0f});
+            for (std::uint32_t a = 1; a < 4; ++a)
+                equations_.push_back({{{4 * s + a, 1.0f}}, 3.0f * kWeakly, nullptr, 1.0f});
+        }
+    }
+
+    /// Conjugate gradients on the normal equations of numbers [first, last), preconditioned by their diagonal.
+    void solve(std::size_t first, std::size_t last, std::vector<float>& records) const {
+        const std::size_t columns = last - first, unknowns = 4 * cells_.samples.size();
+        std::vector<float> x(unknowns * columns, 0.0f), residual(x.size(), 0.0f), direction, turned(x.size());
+        std::vector<float> scale(unknowns, 0.0f), line(columns);
+        start(first, columns, x);
+        for (const Equation& e : equations_) {
+            for (std::size_t i = 0; i < columns; ++i) line[i] = e.value ? e.scale * e.value[first + i] : 0.0f;
+            for (const Entry& entry : e.row)
+                for (std::size_t i = 0; i < columns; ++i) line[i] -= entry.weight * x[entry.unknown * columns + i];
+            for (const Entry& entry : e.row) {
+                scale[entry.unknown] += e.weight * entry.weight * entry.weight;
+                for (std::size_t i = 0; i < columns; ++i)
+                    residual[entry.unknown * columns + i] += e.weight * entry.weight * line[i];
+            }
+        }
+        const auto precondition = [&](const std::vector<float>& from) {
+            std::vector<float> to(from);
+            for (std::size_t u = 0; u < unknowns; ++u)
+                for (std::size_t i = 0; i < columns; ++i) to[u * columns + i] /= std::max(scale[u], 1e-20f);
+            return to;
+        };
+        const auto products = [&](const std::vector<float>& a, const std::vector<float>& b) {
+            std::vector<double> sums(columns, 0.0);
+            for (std::size_t u = 0; u < unknowns; ++u)
+                for (std::size_t i = 0; i < columns; ++i)
+                    sums[i] += double(a[u * columns + i]) * double(b[u * columns + i]);
+            return sums;
+        };
+        direction = precondition(residual);
+        std::vector<double> before = products(residual, direction);
+        for (int step = 0; step < kSteps; ++step) {
+            std::fill(turned.begin(), turned.end(), 0.0f);
+            for (const Equation& e : equations_) {
+                std::fill(line.begin(), line.end(), 0.0f);
+                for (const Entry& entry : e.row)
+                    for (std::size_t i = 0; i < columns; ++i)
+                        line[i] += entry.weight * direction[entry.unknown * columns + i];
+                for (const Entry& entry : e.row)
+                    for (std::size_t i = 0; i < columns; ++i)
+                        turned[entry.unknown * columns + i] += e.weight * entry.weight * line[i];
+            }
+            const std::vector<double> along = products(direction, turned);
+            std::vector<float> length(columns), keep(columns);
+            for (std::size_t i = 0; i < columns; ++i) length[i] = along[i] > 0.0 ? float(before[i] / along[i]) : 0.0f;
+            for (std::size_t u = 0; u < unknowns; ++u)
+                for (std::size_t i = 0; i < columns; ++i) {
+                    x[u * columns + i] += length[i] * direction[u * columns + i];
+                    residual[u * columns + i] -= length[i] * turned[u * columns + i];
+                }
+            const std::vector<float> scaled = precondition(residual);
+            const std::vector<double> after = products(residual, scaled);
+            for (std::size_t i = 0; i < columns; ++i) keep[i] = before[i] > 0.0 ? float(after[i] / before[i]) : 0.0f;
+            before = after;
+            for (std::size_t u = 0; u < unknowns; ++u)
+                for (std::size_t i = 0; i < columns; ++i)
+                    direction[u * columns + i] = scaled[u * columns + i] + keep[i] * direction[u * columns + i];
+        }
+        for (std::size_t u = 0; u < unknowns; ++u)
+            for (std::size_t i = 0; i < columns; ++i)
+                records[u * numbers_ + first + i] = x[u * columns + i] / (u % 4 == 0 ? 1.0f : side_[u / 4]);
+    }
+
+    /// From what was measured at the corners, and the nearest elsewhere.
+    void start(std::size_t first, std::size_t columns, std::vector<float>& x) const {
+        for (std::size_t s = 0; s < measured_.size(); ++s) {
+            if (!measured_[s]) continue;
+            for (std::size_t part = 0; part < 4; ++part)
+                for (std::size_t i = 0; i < columns; ++i)
+                    x[(4 * s + part) * columns + i] =
+                        (part == 0 ? 1.0f : side_[s]) * measured_[s]->light[part * numbers_ + first + i];
+        }
+        for (const auto& [s, nearest] : guess_)
+            for (std::size_t i = 0; nearest && i < columns; ++i) x[4 * s * columns + i] = nearest->light[first + i];
+    }
+
+    const OctreeCells& cells_;
+    const RefinedVolume& refined_;
+    std::size_t numbers_;
+    std::vector<float> side_;                    // per sampled record, metres
+    std::vector<Row> rows_;                      // per record and part: by unknowns
+    std::vector<const VolumeSample*> measured_;  // per sampled record; null: not measured
+    std::vector<std::pair<std::uint32_t, const VolumeSample*>> guess_;
+    std::vector<Equation> equations_;
+};
+
+}  // namespace
+
+VolumeFit fit_volume(const OctreeCells& cells, const RefinedVolume& refined, std::size_t numbers) {
+    return Fitter(cells, refined, numbers).fit();
+}
+
+SameLight same_light_by_rays(const RefinedVolume& refined, const FreeSpace& space) {
+    return [&refined, &space](const Lattice& corner, const LeafSide& a, const LeafSide& b) {
+        const auto nearest = [&](const LeafSide& side) {
+            const RefinedLeaf& leaf = refined.leaves.at(side.leaf);
+            const VolumePlaces::Place* best = nullptr;
+            double least = 1e30;
+            for (int p = 0; p < kLeafPlaces; ++p) {
+                if (leaf.side[std::size_t(p)] != side.side) continue;
+                const VolumePlaces::Place& place = refined.places.places[leaf.place[std::size_t(p)]];
+                const double distance = glm::length(glm::dvec3(place.at - corner));
+                if (distance < least) least = distance, best = &place;
+            }
+            return best;
+        };
+        const VolumePlaces::Place *at_a = nearest(a), *at_b = nearest(b);
+        if (!at_a || !at_b) return false;
+        return at_a->at == at_b->at || space.open(refined.octree.place(at_a->at), refined.octree.place(at_b->at));
+    };
+}
+
+}  // namespace daylit

@@ -1,0 +1,426 @@
+#include "gi/encode/volume_refine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+
+#include "engine/base/random.h"
+
+namespace daylit {
+namespace {
+
+constexpr float kOutlier = 4.0f;     // errors above this many times the target count no more: a wall inside of the cell
+constexpr std::size_t kBatch = 256;  // leaves split before errors are compared again
+constexpr float kRootsAlong = 8.0f;  // the longest side
+constexpr float kSmallest = 0.25f;   // metres, of cells of the level that ends refinement unless one is given
+constexpr int kFinest = 4, kCoarsest = 12;
+constexpr float kFloor = 0.1f;  // of the volume's mean light that errors are compared with, beside the light there
+
+struct LatticeHash {
+    std::size_t operator()(const Lattice& p) const {
+        return std::size_t(mix64(mix64(mix64(std::uint64_t(p.x)) ^ std::uint64_t(p.y)) ^ std::uint64_t(p.z)));
+    }
+};
+
+bool is_corner(int place) {
+    return place % 3 != 1 && place / 3 % 3 != 1 && place / 9 != 1;
+}
+
+/// Centre of the cell or of a face: what is measured beside the corners.
+bool is_test(int place) {
+    return (place % 3 == 1) + (place / 3 % 3 == 1) + (place / 9 == 1) >= 2;
+}
+
+Vec3 t_of(int place) {
+    return 0.5f * Vec3(place % 3, place / 3 % 3, place / 9);
+}
+
+/// A leaf as it was tested.
+struct Tested {
+    RefinedLeaf leaf;
+    int groups = 0;       // of places that see each other
+    bool parted = false;  // by a plane between exactly two groups
+    std::optional<Vec4> plane;
+    double error = 0.0;  // over the target; 0: well enough
+};
+
+class Refiner {
+  public:
+    Refiner(const RayScene& rays, const FreeSpace& space, const std::vector<Bounds>& regions,
+            const SampleVolume& sample, const VolumeSettings& settings)
+        : rays_(rays), space_(space), regions_(regions), sample_(sample), settings_(settings) {}
+
+    RefinedVolume refine(const StageProgress& progress) {
+        lay_roots();
+        std::vector<std::uint32_t> fresh(out_.octree.nodes.size());
+        std::iota(fresh.begin(), fresh.end(), 0u);
+        double done = 0.0;
+        while (!fresh.empty()) {
+            test(fresh, {progress.report, progress.begin + done * (progress.end - progress.begin),
+                         progress.begin + (0.8 * done + 0.2) * (progress.end - progress.begin)});
+            done = 0.8 * done + 0.2;
+            fresh = split_worst();
+        }
+        finish({progress.report, progress.begin + done * (progress.end - progress.begin), progress.end});
+        return std::move(out_);
+    }
+
+  private:
+    void lay_roots() {
+        Bounds all = space_.box();
+        for (const Bounds& b : regions_)
+            if (!b.empty()) all.add(b.min), all.add(b.max);
+        if (all.empty()) return;
+        const Vec3 extent = all.max - all.min;
+        const float longest = std::max({extent.x, extent.y, extent.z, 1e-4f});
+        const float side = longest / kRootsAlong;
+        max_level_ = settings_.max_level >= 0
+                         ? settings_.max_level
+                         : std::clamp(int(std::ceil(std::log2(side / kSmallest))), kFinest, kCoarsest);
+        std::array<int, 3> size;
+        Vec3 origin;
+        for (int a = 0; a < 3; ++a) {
+            size[std::size_t(a)] = std::max(1, int(std::ceil(extent[a] / side - 1e-3f)));
+            origin[a] = 0.5f * (all.min[a] + all.max[a] - side * float(size[std::size_t(a)]));
+        }
+        out_.octree = Octree(origin, side, size);
+    }
+
+    bool wanted(const Vec3& place) const {
+        if (space_.reachable(place)) return true;
+        const Bounds& box = space_.box();
+        const bool outside =
+            box.empty() || glm::any(glm::lessThan(place, box.min)) || glm::any(glm::greaterThan(place, box.max));
+        return outside && std::any_of(regions_.begin(), regions_.end(), [&](const Bounds& b) {
+                   const float reach = out_.octree.side;
+                   return glm::all(glm::greaterThan(place, b.min - reach)) &&
+                          glm::all(glm::lessThan(place, b.max + reach));
+               });
+    }
+
+    /// Something can be in it, though perhaps at none of its places.
+    bool may_hold(const Octree::Node& n) const {
+        const Bounds box{out_.octree.place(n.at), out_.octree.place(n.at + n.units())};
+        return space_.touches(box) || std::any_of(regions_.begin(), regions_.end(), [&](const Bounds& b) {
+                   return !b.empty() && glm::all(glm::lessThan(box.min, b.max)) &&
+                          glm::all(glm::greaterThan(box.max, b.min));
+               });
+    }
+
+    void test(const std::vector<std::uint32_t>& leaves, const StageProgress& progress) {
+        tested_.resize(out_.octree.nodes.size());
+        find_places(leaves);
+        const StageProgress silent{Progress{}};
+        for_each_parallel(leaves.size(), silent, [&](std::size_t i) { group(leaves[i]); });
+        std::vector<std::uint32_t> places;
+        for (const std::uint32_t n : leaves)
+            for (int p = 0; p < kLeafPlaces; ++p)
+                if (tested_[n].leaf.side[std::size_t(p)] >= 0 && (is_corner(p) || is_test(p)))
+                    places.push_back(tested_[n].leaf.place[std::size_t(p)]);
+        sample(std::move(places), progress);
+        for_each_parallel(leaves.size(), silent, [&](std::size_t i) { judge(leaves[i]); });
+        waiting_.insert(waiting_.end(), leaves.begin(), leaves.end());
+    }
+
+    void find_places(const std::vector<std::uint32_t>& leaves) {
+        std::vector<VolumePlaces::Place>& places = out_.places.places;
+        const std::size_t first = places.size();
+        for (const std::uint32_t n : leaves) {
+            const Octree::Node& node = out_.octree.nodes[n];
+            for (int p = 0; p < kLeafPlaces; ++p) {
+                const Lattice at = node.at + node.units() / 2 * Lattice(p % 3, p / 3 % 3, p / 9);
+                const auto [known, is_new] = index_.try_emplace(at, std::uint32_t(places.size()));
+                if (is_new) places.push_back({.at = at});
+                tested_[n].leaf.place[std::size_t(p)] = known->second;
+            }
+        }
+        std::vector<std::uint8_t> free(places.size() - first);  // bytes, since threads write neighbours
+        const StageProgress silent{Progress{}};
+        for_each_parallel(free.size(), silent,
+                          [&](std::size_t i) { free[i] = wanted(out_.octree.place(places[first + i].at)); });
+        for (std::size_t i = 0; i < free.size(); ++i) places[first + i].free = free[i] != 0;
+    }
+
+    Vec3 place_of(const RefinedLeaf& leaf, int p) const {
+        return out_.octree.place(out_.places.places[leaf.place[std::size_t(p)]].at);
+    }
+    bool free(const RefinedLeaf& leaf, int p) const { return out_.places.places[leaf.place[std::size_t(p)]].free; }
+
+    /// Groups the free places of a leaf by what neighbours see each other, and parts two groups by a plane.
+    void group(std::uint32_t n) {
+        Tested& tested = tested_[n];
+        std::array<int, kLeafPlaces> of;
+        std::iota(of.begin(), of.end(), 0);
+        std::vector<std::pair<int, int>> blocked;
+        for (int p = 0; p < kLeafPlaces; ++p)
+            for (const auto& [stride, last] :
+                 {std::pair(1, p % 3 == 2), std::pair(3, p / 3 % 3 == 2), std::pair(9, p / 9 == 2)}) {
+                const int q = p + stride;
+                if (last || !free(tested.leaf, p) || !free(tested.leaf, q)) continue;
+                if (!space_.open(place_of(tested.leaf, p), place_of(tested.leaf, q)))
+                    blocked.emplace_back(p, q);
+                else if (of[std::size_t(p)] != of[std::size_t(q)])
+                    std::replace(of.begin(), of.end(), std::max(of[std::size_t(p)], of[std::size_t(q)]),
+                                 std::min(of[std::size_t(p)], of[std::size_t(q)]));
+            }
+        std::map<int, int> sizes;
+        for (int p = 0; p < kLeafPlaces; ++p)
+            if (free(tested.leaf, p)) ++sizes[of[std::size_t(p)]];
+        tested.groups = int(sizes.size());
+        if (tested.groups > 1) part(tested, of, blocked);
+        for (int p = 0; p < kLeafPlaces; ++p)
+            tested.leaf.side[std::size_t(p)] =
+                std::int8_t(!free(tested.leaf, p) ? -1
+                            : tested.plane        ? side_of(*tested.plane, place_of(tested.leaf, p))
+                                                  : 0);
+        if (tested.plane && !tested.parted) drop_minorities(tested, of);
+    }
+
+    static int side_of(const Vec4& plane, const Vec3& place) {
+        return glm::dot(Vec3(plane), place) + plane.w >= 0.0f ? 0 : 1;
+    }
+
+    /// The plane of a wall between blocked neighbours that parts the groups best.
+    void part(Tested& tested, const std::array<int, kLeafPlaces>& of,
+              const std::vector<std::pair<int, int>>& blocked) const {
+        int best = 0;
+        for (const auto& [p, q] : blocked) {
+            if (of[std::size_t(p)] == of[std::size_t(q)]) continue;
+            const Vec3 a = place_of(tested.leaf, p), b = place_of(tested.leaf, q);
+            const Vec3 along = glm::normalize(b - a);
+            const float length = glm::distance(a, b);
+            const auto from_a = rays_.closest({a, along, 0.0f, length}, 0),
+                       from_b = rays_.closest({b, -along, 0.0f, length}, 0);
+            if (!from_a || !from_b) continue;
+            const Vec3 middle = 0.5f * (a + from_a->distance * along + b - from_b->distance * along);
+            for (const Vec3& hit_normal : {from_a->normal, from_b->normal}) {
+                const Vec3 normal = glm::dot(hit_normal, along) > 0.0f ? -hit_normal : hit_normal;
+                const Vec4 plane(normal, -glm::dot(normal, middle));
+                const auto [right, wrong] = parted(tested.leaf, of, plane);
+                if (wrong == 0 && tested.groups == 2) {
+                    tested.plane = plane, tested.parted = true;
+                    return;
+                }
+                if (right - wrong > best) best = right - wrong, tested.plane = plane;
+            }
+        }
+    }
+
+    /// Places on the side where most of their group is, and those that are not.
+    std::pair<int, int> parted(const RefinedLeaf& leaf, const std::array<int, kLeafPlaces>& of,
+                               const Vec4& plane) const {
+        std::map<int, std::array<int, 2>> counts;
+        for (int p = 0; p < kLeafPlaces; ++p)
+            if (free(leaf, p)) ++counts[of[std::size_t(p)]][std::size_t(side_of(plane, place_of(leaf, p)))];
+        int right = 0, wrong = 0;
+        std::array<bool, 2> any{};
+        for (const auto& [g, count] : counts) {
+            right += std::max(count[0], count[1]), wrong += std::min(count[0], count[1]);
+            any[count[1] > count[0] ? 1 : 0] = true;
+        }
+        return any[0] && any[1] ? std::pair(right, wrong) : std::pair(0, kLeafPlaces);
+    }
+
+    /// Of either side only the largest group tells of its light.
+    void drop_minorities(Tested& tested, const std::array<int, kLeafPlaces>& of) const {
+        for (int side = 0; side < 2; ++side) {
+            std::map<int, int> sizes;
+            for (int p = 0; p < kLeafPlaces; ++p)
+                if (tested.leaf.side[std::size_t(p)] == side) ++sizes[of[std::size_t(p)]];
+            const auto largest = std::max_element(sizes.begin(), sizes.end(),
+                                                  [](const auto& a, const auto& b) { return a.second < b.second; });
+            for (int p = 0; p < kLeafPlaces; ++p)
+                if (tested.leaf.side[std::size_t(p)] == side && of[std::size_t(p)] != largest->first)
+                    tested.leaf.side[std::size_t(p)] = -1;
+        }
+    }
+
+    /// Traces samples at places that have none.
+    void sample(std::vector<std::uint32_t> places, const StageProgress& progress) {
+        std::sort(places.begin(), places.end());
+        places.erase(std::unique(places.begin(), places.end()), places.end());
+        std::erase_if(places, [&](std::uint32_t p) { return out_.places.places[p].sample >= 0; });
+        const std::size_t first = out_.places.samples.size();
+        out_.places.samples.resize(first + places.size());
+        for_each_parallel(places.size(), progress, [&](std::size_t i) {
+            const Lattice& at = out_.places.places[places[i]].at;
+            out_.places.samples[first + i] = sample_(out_.octree.place(at), LatticeHash{}(at));
+        });
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            out_.places.places[places[i]].sample = int(first + i);
+            const std::vector<float>& judged = out_.places.samples[first + i].judged;
+            const std::size_t functionals = judged.size() / 4;
+            mean_.resize(functionals, 0.0);
+            for (std::size_t f = 0; f < functionals; ++f) mean_[f] += double(judged[f]);
+        }
+    }
+
+    const VolumeSample* sample_at(const RefinedLeaf& leaf, int p) const {
+        const int s = out_.places.places[leaf.place[std::size_t(p)]].sample;
+        return leaf.side[std::size_t(p)] >= 0 && s >= 0 ? &out_.places.samples[std::size_t(s)] : nullptr;
+    }
+
+    void judge(std::uint32_t n) {
+        Tested& tested = tested_[n];
+        const Octree::Node& node = out_.octree.nodes[n];
+        const int members =
+            int(std::count_if(tested.leaf.side.begin(), tested.leaf.side.end(), [](int s) { return s >= 0; }));
+        if (members == 0) {
+            tested.error = may_hold(node) ? kOutlier : 0.0;
+            return;
+        }
+        tested.error = 0.0;
+        if (tested.groups > 1 && !tested.parted) tested.error = kOutlier;
+        for (int side = 0; side < 2; ++side) tested.error = std::max(tested.error, side_error(tested, node, side));
+        if (node.level < settings_.min_level) tested.error = 1e6;
+        if (node.level < settings_.geometry_level && members < kLeafPlaces) tested.error = 1e6;
+    }
+
+    /// Worst difference between what was measured and what the corners say, over the target.
+    double side_error(const Tested& tested, const Octree::Node& node, int side) const {
+        const float length = out_.octree.side_of(node);
+        std::array<const VolumeSample*, 8> corner{};
+        std::array<Vec3, 8> from{};
+        for (int c = 0; c < 8; ++c) corner[std::size_t(c)] = corner_sample(tested, c, side, from[std::size_t(c)]);
+        if (!corner[0]) return 0.0;
+        double worst = 0.0;
+        const std::size_t functionals = mean_.size();
+        for (const VolumeSample* s : corner) worst = std::max(worst, by_controls(*s, length));
+        for (int p = 0; p < kLeafPlaces; ++p) {
+            const VolumeSample* measured = sample_at(tested.leaf, p);
+            if (!measured || !is_test(p) || tested.leaf.side[std::size_t(p)] != side) continue;
+            for (std::size_t f = 0; f < functionals; ++f) {
+                double found = 0.0;
+                for (int c = 0; c < 8; ++c) {
+                    const std::vector<float>& judged = corner[std::size_t(c)]->judged;
+                    const Vec4 weights = glsl::volume_corner_weights(c, t_of(p), length);
+                    const Vec3 change(judged[functionals + f], judged[2 * functionals + f],
+                                      judged[3 * functionals + f]);
+                    const Vec3 moved = length * (Vec3(c & 1, c >> 1 & 1, c >> 2) - from[std::size_t(c)]);
+                    const float value = judged[f] + std::clamp(glm::dot(change, moved), -0.5f * std::abs(judged[f]),
+                                                               0.5f * std::abs(judged[f]));
+                    found += double(weights.x) * double(value) +
+                             double(glm::dot(Vec3(weights.y, weights.z, weights.w), change));
+                }
+                const double light = std::abs(double(measured->judged[f])) +
+                                     double(kFloor) * mean_[f] / double(out_.places.samples.size());
+                const double left = std::abs(found - double(measured->judged[f])) - 2.0 * double(measured->noise[f]);
+                if (left > 0.0 && light > 0.0) worst = std::max(worst, left / light / double(settings_.error));
+            }
+        }
+        return std::min(worst, double(kOutlier));
+    }
+
+    /// Oat's tests of a corner alone.
+    double by_controls(const VolumeSample& s, float length) const {
+        if (s.nearness < settings_.harmonic_mean * length) return 2.0;
+        const std::size_t functionals = mean_.size();
+        for (std::size_t f = 0; f < functionals; ++f) {
+            const Vec3 change(s.judged[functionals + f], s.judged[2 * functionals + f], s.judged[3 * functionals + f]);
+            if (glm::length(change) * length > settings_.change * std::abs(s.judged[f])) return 2.0;
+        }
+        return 0.0;
+    }
+
+    /// The sample at a corner, or the nearest of the same side; `from` where it is, in [0,1]^3.
+    const VolumeSample* corner_sample(const Tested& tested, int corner, int side, Vec3& from) const {
+        const Vec3 at(corner & 1, corner >> 1 & 1, corner >> 2);
+        const VolumeSample* best = nullptr;
+        float least = 1e9f;
+        for (int p = 0; p < kLeafPlaces; ++p) {
+            if (tested.leaf.side[std::size_t(p)] != side || !sample_at(tested.leaf, p)) continue;
+            const float distance = glm::distance(at, t_of(p));
+            if (distance < least) least = distance, best = sample_at(tested.leaf, p), from = t_of(p);
+        }
+        return best;
+    }
+
+    /// Splits the leaves whose error matters most, and returns their children; none when all are well or the budget is
+    /// spent.
+    std::vector<std::uint32_t> split_worst() {
+        std::erase_if(waiting_, [&](std::uint32_t n) {
+            return tested_[n].error <= 1.0 || out_.octree.nodes[n].level >= max_level_;
+        });
+        const auto importance = [&](std::uint32_t n) {
+            const double side = double(out_.octree.side_of(out_.octree.nodes[n]));
+            return tested_[n].error * tested_[n].error * side * side * side;
+        };
+        std::stable_sort(waiting_.begin(), waiting_.end(),
+                         [&](std::uint32_t a, std::uint32_t b) { return importance(a) > importance(b); });
+        std::vector<std::uint32_t> children;
+        std::size_t count = std::min(waiting_.size(), std::max(kBatch, leaves() / 8));
+        if (leaves() + 7 * count > settings_.most_cells) {
+            count = leaves() < settings_.most_cells ? std::min(count, (settings_.most_cells - leaves()) / 7) : 0;
+            out_.budget_spent = !waiting_.empty();
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            out_.octree.split(waiting_[i]);
+            const std::uint32_t first = out_.octree.nodes[waiting_[i]].children;
+            for (std::uint32_t c = 0; c < 8; ++c) children.push_back(first + c);
+        }
+        waiting_.erase(waiting_.begin(), waiting_.begin() + std::ptrdiff_t(count));
+        return children;
+    }
+    std::size_t leaves() const { return out_.octree.nodes.size() * 7 / 8; }
+
+    /// Marks what is empty or cut, and samples all free places of cells that lack corners.
+    void finish(const StageProgress& progress) {
+        std::vector<std::uint32_t> places;
+        for (std::uint32_t n = 0; n < out_.octree.nodes.size(); ++n) {
+            Octree::Node& node = out_.octree.nodes[n];
+            if (!node.leaf()) continue;
+            const Tested& tested = tested_[n];
+            std::array<int, 2> members{};
+            for (const int side : tested.leaf.side)
+                if (side >= 0) ++members[std::size_t(side)];
+            node.empty = members[0] + members[1] == 0;
+            if (node.empty) continue;
+            if (members[0] > 0 && members[1] > 0) node.cut = true, node.plane = *tested.plane;
+            out_.leaves[n] = tested.leaf;
+            if (!node.cut && members[1] > 0)
+                for (std::int8_t& side : out_.leaves[n].side)
+                    if (side == 1) side = 0;
+            const bool whole = members[0] == kLeafPlaces;
+            for (int p = 0; !whole && p < kLeafPlaces; ++p)
+                if (tested.leaf.side[std::size_t(p)] >= 0) places.push_back(tested.leaf.place[std::size_t(p)]);
+        }
+        sample(std::move(places), progress);
+        merge_empty();
+    }
+
+    /// Eight empty leaves are one.
+    void merge_empty() {
+        for (std::uint32_t n = std::uint32_t(out_.octree.nodes.size()); n-- > 0;) {
+            Octree::Node& node = out_.octree.nodes[n];
+            if (node.leaf()) continue;
+            bool all = true;
+            for (std::uint32_t c = 0; c < 8; ++c) {
+                const Octree::Node& child = out_.octree.nodes[node.children + c];
+                all = all && child.leaf() && child.empty;
+            }
+            if (all) node.children = 0, node.empty = true;
+        }
+    }
+
+    const RayScene& rays_;
+    const FreeSpace& space_;
+    const std::vector<Bounds>& regions_;
+    const SampleVolume& sample_;
+    const VolumeSettings& settings_;
+    RefinedVolume out_;
+    std::unordered_map<Lattice, std::uint32_t, LatticeHash> index_;
+    std::vector<Tested> tested_;          // by node
+    std::vector<std::uint32_t> waiting_;  // leaves that may be split
+    std::vector<double> mean_;            // sums over samples
+    int max_level_ = 0;
+};
+
+}  // namespace
+
+RefinedVolume refine_volume(const RayScene& rays, const FreeSpace& space, const std::vector<Bounds>& regions,
+                            const SampleVolume& sample, const VolumeSettings& settings, const StageProgress& progress) {
+    return Refiner(rays, space, regions, sample, settings).refine(progress);
+}
+
+}  // namespace daylit

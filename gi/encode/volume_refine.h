@@ -1,0 +1,56 @@
+#pragma once
+// An octree over free space, refined where light measured inside a cell differs from what its corners say.
+#include <functional>
+#include <map>
+#include <optional>
+
+#include "engine/base/progress.h"
+#include "gi/encode/volume_octree.h"
+#include "gi/encode/volume_settings.h"
+#include "gi/parallel.h"
+#include "gi/surface/free_space.h"
+
+namespace daylit {
+
+/// A sample of light at a place. Several numbers of one kind follow one another, so that they are blended alike.
+struct VolumeSample {
+    std::vector<float> light;   // [part 4][numbers]: what is encoded; parts are the value and its change along x, y, z
+    std::vector<float> judged;  // [part 4][functionals]: irradiance on several planes at several hours, lux
+    std::vector<float> noise;   // [functionals]: standard error of the values
+    float change_noise = 0.0f;  // standard error of the change per metre, over that of the value; metres^-1
+    float nearness = 1e9f;      // harmonic mean distance of what is seen, metres
+    bool inside = false;        // of something solid
+};
+using SampleVolume = std::function<VolumeSample(const Vec3& place, std::uint64_t key)>;
+
+/// Places of the finest lattice that cells were tested at.
+struct VolumePlaces {
+    struct Place {
+        Lattice at;
+        bool free = false;  // something can be there
+        int sample = -1;
+    };
+    std::vector<Place> places;
+    std::vector<VolumeSample> samples;
+};
+
+/// The 27 places of a leaf, x fastest: corners, middles of edges and faces, the centre.
+inline constexpr int kLeafPlaces = 27;
+struct RefinedLeaf {
+    std::array<std::uint32_t, kLeafPlaces> place{};  // index into places
+    std::array<std::int8_t, kLeafPlaces> side{};     // -1: of no cell; 0: of the leaf or its front; 1: of its back
+};
+
+struct RefinedVolume {
+    Octree octree;
+    VolumePlaces places;
+    std::map<std::uint32_t, RefinedLeaf> leaves;  // those with cells
+    bool budget_spent = false;
+};
+
+/// Every corner of every cell that is free, and every other free place that told of the light, has a sample.
+/// regions   boxes where something can be though they leave the scene's box
+RefinedVolume refine_volume(const RayScene& rays, const FreeSpace& space, const std::vector<Bounds>& regions,
+                            const SampleVolume& sample, const VolumeSettings& settings, const StageProgress& progress);
+
+}  // namespace daylit

@@ -1,0 +1,89 @@
+#include "gi/surface/free_space.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace daylit {
+
+FreeSpace::FreeSpace(const RayScene& rays, int cells) : rays_(rays), box_(rays.bounds()) {
+    if (box_.empty()) {
+        counts_ = glm::ivec3(0);
+        return;
+    }
+    const Vec3 size = box_.max - box_.min;
+    cell_ = std::max({size.x, size.y, size.z}) / float(cells);
+    for (int axis = 0; axis < 3; ++axis) counts_[axis] = std::max(1, int(std::ceil(size[axis] / cell_)));
+    reached_.resize(std::size_t(counts_.x) * std::size_t(counts_.y) * std::size_t(counts_.z), false);
+}
+
+void FreeSpace::start_at(const Vec3& place) {
+    const glm::ivec3 cell = cell_of(place);
+    if (inside(cell)) {
+        if (open(place, centre(cell))) reach(cell);
+        return;
+    }
+    // From outside of the box, through whichever cells at its border are seen.
+    for (int z = 0; z < counts_.z; ++z)
+        for (int y = 0; y < counts_.y; ++y)
+            for (int x = 0; x < counts_.x; ++x) {
+                const glm::ivec3 at(x, y, z);
+                const bool border = glm::any(glm::equal(at, glm::ivec3(0))) || glm::any(glm::equal(at, counts_ - 1));
+                if (border && open(place, centre(at))) reach(at);
+            }
+}
+
+void FreeSpace::start_under_the_sky() {
+    for (int z = 0; z < counts_.z; ++z)
+        for (int y = 0; y < counts_.y; ++y)
+            for (int x = 0; x < counts_.x; ++x)
+                if (rays_.transmittance({centre({x, y, z}), Vec3(0, 1, 0)}) == 1.0f) reach({x, y, z});
+}
+
+void FreeSpace::spread() {
+    while (!front_.empty()) {
+        const glm::ivec3 cell = front_.back();
+        front_.pop_back();
+        for (int axis = 0; axis < 3; ++axis)
+            for (const int step : {-1, 1}) {
+                glm::ivec3 next = cell;
+                next[axis] += step;
+                if (inside(next) && !reached_[index(next)] && open(centre(cell), centre(next))) reach(next);
+            }
+    }
+}
+
+bool FreeSpace::reachable(const Vec3& place) const {
+    const glm::ivec3 cell = cell_of(place);
+    return inside(cell) && reached_[index(cell)] && open(centre(cell), place);
+}
+
+bool FreeSpace::touches(const Bounds& box) const {
+    const glm::ivec3 first = glm::max(cell_of(box.min), glm::ivec3(0)), last = glm::min(cell_of(box.max), counts_ - 1);
+    for (int z = first.z; z <= last.z; ++z)
+        for (int y = first.y; y <= last.y; ++y)
+            for (int x = first.x; x <= last.x; ++x)
+                if (reached_[index({x, y, z})]) return true;
+    return false;
+}
+
+bool FreeSpace::open(const Vec3& from, const Vec3& to) const {
+    const float distance = glm::distance(from, to);
+    return distance == 0.0f || rays_.transmittance({from, (to - from) / distance, 0.0f, distance}) > 0.0f;
+}
+
+bool FreeSpace::inside(const glm::ivec3& cell) const {
+    return glm::all(glm::greaterThanEqual(cell, glm::ivec3(0))) && glm::all(glm::lessThan(cell, counts_));
+}
+
+std::size_t FreeSpace::index(const glm::ivec3& cell) const {
+    return (std::size_t(cell.z) * std::size_t(counts_.y) + std::size_t(cell.y)) * std::size_t(counts_.x) +
+           std::size_t(cell.x);
+}
+
+void FreeSpace::reach(const glm::ivec3& cell) {
+    if (reached_[index(cell)]) return;
+    reached_[index(cell)] = true;
+    front_.push_back(cell);
+}
+
+}  // namespace daylit
