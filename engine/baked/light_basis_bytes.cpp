@@ -29,7 +29,8 @@ std::array<Group, 2> groups_of(const LightBasis& basis) {
 float step_of(const float* values, std::size_t count) {
     float largest = 0.0f;
     for (std::size_t i = 0; i < count; ++i) largest = std::max(largest, std::abs(values[i]));
-    return largest > 0.0f ? std::exp2(std::ceil(std::log2(largest / 32767.0f))) : 1.0f;
+    // What is smaller than any light counts as none; its step would fall below the least float.
+    return largest > 1e-30f ? std::exp2(std::ceil(std::log2(largest / 32767.0f))) : 1.0f;
 }
 
 }  // namespace

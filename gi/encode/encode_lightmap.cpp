@@ -117,8 +117,10 @@ Patterns principal_patterns(const Judge& judge, const TileRows& tile, const Matr
     Matrix judged = judge.parts;
     for (Eigen::Index m = 0; m < seen.size(); ++m) judged.middleCols(7 * m, 7) /= seen[m];
     Matrix metric = judged * judged.transpose() / double(seen.size());
-    metric.diagonal().array() += 1e-10 * metric.trace();
-    const Matrix root = metric.llt().matrixL();
+    // A root by eigenvectors, since few moments leave the metric singular, where Cholesky's breaks down.
+    const Eigen::SelfAdjointEigenSolver<Matrix> of_metric(metric);
+    const Matrix root =
+        of_metric.eigenvectors() * of_metric.eigenvalues().cwiseMax(1e-10 * metric.trace()).cwiseSqrt().asDiagonal();
     Matrix turned(3 * q, 3 * q);
     for (Eigen::Index a = 0; a < 3; ++a)
         for (Eigen::Index b = 0; b < 3; ++b)

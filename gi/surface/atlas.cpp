@@ -16,6 +16,12 @@ namespace daylit {
 namespace {
 
 constexpr int kMaxSide = 16384, kMaxChartSide = 2048;
+
+[[noreturn]] void refuse_size() {
+    throw Error("lightmap",
+                "the static surfaces need more than 16384 x 16384 texels; bake with a coarser "
+                "--quality or split the scene");
+}
 constexpr float kWideArea = 100.0f;  // square metres: larger charts get coarser, with the fourth root of their area
 // Fetches keep this far, in texels, inside the outermost texel centres: more than the 1/256 of a GPU's fixed-point
 // filter, so no neighbour in the atlas is touched.
@@ -89,9 +95,7 @@ void place(Atlas& atlas) {
     }
     atlas.width = std::clamp(int(std::ceil(std::sqrt(area) / 4.0)) * 4, widest, kMaxSide);
     while ((atlas.height = pack(atlas.charts, atlas.width)) == 0) {
-        if (atlas.width == kMaxSide)
-            throw Error("lightmap", "the static surfaces need more than 16384 x 16384 texels; bake with a coarser "
-                                    "--quality or split the scene");
+        if (atlas.width == kMaxSide) refuse_size();
         atlas.width = std::min(2 * atlas.width, kMaxSide);
     }
 }
@@ -138,6 +142,7 @@ int PlacedChart::nearest_y(const Vec2& plane) const {
 }
 
 Atlas make_atlas(const WorldMesh& mesh, std::size_t texel_budget) {
+    if (texel_budget > std::size_t(kMaxSide) * kMaxSide) refuse_size();
     double area = 0.0;
     for (const Facet& f : facets(mesh)) area += f.area;
     const Bounds box = bounds(mesh);

@@ -14,9 +14,9 @@ namespace {
 TEST(HostileSky, DamagedImagesAreRefusedAndOddOnesMadeFinite) {
     const std::filesystem::path folder = DAYLIT_SHARED_DIR "/hostile/hdr-damaged";
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder.string() << " is missing";
-    const std::set<std::string> usable = {"nan-pixel.exr",        "inf-pixel.exr",   "negative-pixels.exr",
-                                          "sun-1e30.exr",         "one-channel.exr", "five-channels.exr",
-                                          "channels-bgr-names.exr", "one-pixel.exr", "two-by-one.exr"};
+    const std::set<std::string> usable = {"nan-pixel.exr",          "inf-pixel.exr",   "negative-pixels.exr",
+                                          "sun-1e30.exr",           "one-channel.exr", "five-channels.exr",
+                                          "channels-bgr-names.exr", "one-pixel.exr",   "two-by-one.exr"};
     int seen = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         const std::string name = entry.path().filename().string();
