@@ -25,7 +25,7 @@ struct PointsOptions {
 
 std::vector<SurfaceSample> sample(const PointsOptions& options, const TracedScene& scene) {
     if (options.count < 1 || options.count > 10000000) throw Error("--count", "give 1 to 10000000");
-    if (options.sample == "surface") return sample_surface(scene.loaded.scene, scene.pose, options.count, options.seed);
+    if (options.sample == "surface") return sample_surface(scene.rays, scene.pose, options.count, options.seed);
     if (options.sample == "space") return sample_space(scene.rays, scene.pose, options.count, options.seed);
     throw UsageError("--sample", "'" + options.sample + "' is not one of surface, space");
 }
@@ -120,7 +120,7 @@ void add_points(CLI::App& app) {
     command->add_option("-o", options->output, "CSV to write: x,y,z,nx,ny,nz, with --method also r,g,b in lux")
         ->required();
     command->add_option("--sample", options->sample,
-                        "surface (by area, static surfaces) | space (free space reachable from the cameras, or from "
+                        "surface (by area, static surfaces, not where solids cover one another) | space (free space reachable from the cameras, or from "
                         "the open sky in a scene without any)");
     command->add_option("--count", options->count, "points to draw")->capture_default_str();
     command->add_option("--seed", options->seed, "of the random numbers")->capture_default_str();

@@ -256,7 +256,7 @@ class ReportMaker {
         const auto seed = options_.seed;
         if (on_surfaces)
             surface_ = point_truth(pieces, level_, "surface",
-                                   sample_surface(level_.loaded.scene, level_.pose, options_.points, seed), hours_,
+                                   sample_surface(level_.rays, level_.pose, options_.points, seed), hours_,
                                    options_.spp);
         if (in_space) find_space_truth(pieces);
         for (const ViewAt& view : views) {

@@ -7,11 +7,14 @@
 #include "engine/base/random.h"
 #include "engine/scene/texture.h"
 #include "gi/surface/free_space.h"
+#include "gi/transport/path_trace/sampling.h"
 
 namespace daylit {
 namespace {
 
 constexpr int kTriesPerPoint = 1000;
+constexpr int kLooks = 64;           // rays that decide whether a place can be seen
+constexpr float kCovering = 1e-5f;   // of the scene's size: what lies this near covers a place
 
 /// Areas summed up, in triangle order; triangles that cannot be sampled add nothing.
 std::vector<double> summed_areas(const Scene& scene, const WorldMesh& mesh) {
@@ -33,9 +36,25 @@ Vec3 uniform_direction(Random& random) {
     return Vec3(r * std::cos(phi), y, r * std::sin(phi));
 }
 
+/// Whether it sees the sky, or the front of something that does not lie upon it.
+bool in_the_open(const RayScene& rays, const SurfaceSample& point, std::uint64_t seed) {
+    const Bounds box = rays.bounds();
+    const float covering = kCovering * glm::length(box.max - box.min);
+    Random random(seed, 0, 1);
+    for (int look = 0; look < kLooks; ++look) {
+        const float u = random.next(), v = random.next();
+        const Vec3 direction = Frame(point.normal).to_world(sample_cosine_hemisphere(u, v));
+        const Vec3 origin = RayScene::offset_origin(point.position, point.normal, direction);
+        const std::optional<Hit> hit = rays.closest({origin, direction}, std::uint64_t(look));
+        if (!hit || (hit->distance > covering && glm::dot(direction, hit->normal) < 0.0f)) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
-std::vector<SurfaceSample> sample_surface(const Scene& scene, const Pose& pose, int count, std::uint64_t seed) {
+std::vector<SurfaceSample> sample_surface(const RayScene& rays, const Pose& pose, int count, std::uint64_t seed) {
+    const Scene& scene = rays.scene();
     WorldMesh mesh = world_mesh(scene, pose, Part::Static);
     if (mesh.triangle_count() == 0) mesh = world_mesh(scene, pose, Part::All);
     const std::vector<double> sums = summed_areas(scene, mesh);
@@ -45,7 +64,8 @@ std::vector<SurfaceSample> sample_surface(const Scene& scene, const Pose& pose, 
     Random random(seed, 0, 0);
     for (long tries = 0; points.size() < std::size_t(count); ++tries) {
         if (tries > long(count) * kTriesPerPoint)
-            throw Error(scene.path.string(), "its surfaces are cut away nearly everywhere; found too few points");
+            throw Error(scene.path.string(),
+                        "its surfaces are cut away or covered nearly everywhere; found too few points");
         const auto place = std::upper_bound(sums.begin(), sums.end(), random.next_double() * sums.back());
         const auto t = std::size_t(std::min(place, sums.end() - 1) - sums.begin());
         const float root = std::sqrt(random.next()), v = random.next();
@@ -61,7 +81,8 @@ std::vector<SurfaceSample> sample_surface(const Scene& scene, const Pose& pose, 
         }
         if (base_color(scene, scene.materials[mesh.materials[t]], uvs, color).a <= 0.0f) continue;
         const glm::dvec3 a = mesh.positions[corner[0]], b = mesh.positions[corner[1]], c = mesh.positions[corner[2]];
-        points.push_back({position, Vec3(glm::normalize(glm::cross(b - a, c - a)))});
+        const SurfaceSample point{position, Vec3(glm::normalize(glm::cross(b - a, c - a)))};
+        if (in_the_open(rays, point, mix64(seed ^ std::uint64_t(tries)))) points.push_back(point);
     }
     return points;
 }

@@ -118,11 +118,18 @@ inline std::vector<Rgb> lightmap_light(const Baked& baked, const Scene& scene, d
     return lightmap_irradiance(*baked.lightmap, scene, light.scales(hour, baked.light.clouds), hour, points);
 }
 
+/// Places on the scene's surfaces.
+inline std::vector<SurfaceSample> places(const Scene& scene, int count) {
+    const Pose pose = pose_scene(scene);
+    const WorldMesh mesh = world_mesh(scene, pose, Part::All);
+    return sample_surface(RayScene(scene, mesh), pose, count, 1);
+}
+
 inline Light baked_light(const Scene& scene, const BakeSettings& settings, double hour = 12.0, int points = 200) {
     const Baked baked = bake(scene, settings);
     EXPECT_TRUE(baked.lightmap.has_value());
     if (!baked.lightmap) return {};
-    return sound(lightmap_light(baked, scene, hour, sample_surface(scene, pose_scene(scene), points, 1)), "bake");
+    return sound(lightmap_light(baked, scene, hour, places(scene, points)), "bake");
 }
 
 inline Light traced_light(const Scene& scene, const LightSettings& light, int spp = 64, int bounces = 1000,
@@ -132,7 +139,7 @@ inline Light traced_light(const Scene& scene, const LightSettings& light, int sp
     const RayScene rays(scene, mesh);
     const std::vector<PlacedLight> lamps = placed_lights(scene, pose);
     return sound(
-        path_trace_irradiance(rays, LightModel(light, lamps).at(hour), lamps, sample_surface(scene, pose, points, 1),
+        path_trace_irradiance(rays, LightModel(light, lamps).at(hour), lamps, places(scene, points),
                               {.spp = spp, .max_bounces = bounces, .layer = Layer::Indirect}),
         "path tracer");
 }

@@ -111,7 +111,7 @@ TEST(Day, AllBlackAndAllEqual) {
     const Scene scene = box(Rgb(0.5f), false);
     const Baked black = bake(scene, coarse(no_light()));
     ASSERT_TRUE(black.lightmap);
-    const std::vector<SurfaceSample> points = sample_surface(scene, pose_scene(scene), 100, 1);
+    const std::vector<SurfaceSample> points = places(scene, 100);
     for (const double hour : {0.0, 6.0, 12.0, 23.99})
         EXPECT_EQ(sound(lightmap_light(black, scene, hour, points), "black").most, 0.0);
 
@@ -128,7 +128,7 @@ TEST(Day, PolarNightHasNoSunAndNoNegativeLight) {
     settings.every_hours = 1.0;
     const Baked baked = bake(scene, settings);
     ASSERT_TRUE(baked.lightmap);
-    const std::vector<SurfaceSample> points = sample_surface(scene, pose_scene(scene), 100, 1);
+    const std::vector<SurfaceSample> points = places(scene, 100);
     for (double hour = 0.0; hour < 24.0; hour += 1.7)
         EXPECT_LT(sound(lightmap_light(baked, scene, hour, points), "polar night").most, 1.0) << hour;
 }
@@ -139,7 +139,7 @@ TEST(Day, TheWholeDayIsSound) {
     settings.every_hours = 1.0;
     const Baked baked = bake(scene, settings);
     ASSERT_TRUE(baked.lightmap);
-    const std::vector<SurfaceSample> points = sample_surface(scene, pose_scene(scene), 200, 1);
+    const std::vector<SurfaceSample> points = places(scene, 200);
     for (double hour = 0.0; hour < 24.0; hour += 0.37)  // between keyframes too
         EXPECT_LT(sound(lightmap_light(baked, scene, hour, points), "day").most, 2e5) << hour;
 }
