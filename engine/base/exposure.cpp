@@ -9,6 +9,7 @@ namespace daylit {
 namespace {
 
 constexpr float kDarkest = 1e-4f;     // cd/m^2; a moonless night
+constexpr double kLeastEv = -3.0;     // a landscape under a half moon
 constexpr double kMeter = 12.5;       // reflected-light meter calibration constant K, ISO 2720
 constexpr double kCutShare = 0.1;     // of the pixels, at either end
 constexpr double kSaturation = 1.2;   // ISO 12232: 78 / (100 * 0.65)
@@ -39,7 +40,7 @@ double log_average_of_middle(std::vector<float> values) {
 }  // namespace
 
 double auto_ev(const Image& radiance) {
-    return std::log2(log_average_of_middle(metered_luminances(radiance)) * 100.0 / kMeter);
+    return std::max(kLeastEv, std::log2(log_average_of_middle(metered_luminances(radiance)) * 100.0 / kMeter));
 }
 
 double exposure_from_ev(double ev) {

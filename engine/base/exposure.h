@@ -6,7 +6,8 @@ namespace daylit {
 
 /// EV100 that a reflected-light meter would choose: EV = log2(L_average * 100 / 12.5) (ISO 2720, K = 12.5), where
 /// L_average is the log-average luminance of the middle 80 % by luminance of the pixels that are lit at all, i.e. above
-/// 1e-4 cd/m^2. A black or empty picture gives the EV of that floor.
+/// 1e-4 cd/m^2. Never below -3, so that what is darker than moonlight is shown dark, as eyes see it; so is a black or
+/// empty picture.
 double auto_ev(const Image& radiance);
 
 /// Factor from cd/m^2 to display-linear 1.0 before the tone curve: 1 / (1.2 * 2^EV) (ISO 12232 saturation speed).
