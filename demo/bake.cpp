@@ -18,7 +18,7 @@ namespace {
 
 struct BakeOptions {
     SceneOptions scene;
-    std::string output, quality = "preview", parts = "auto", hours = "0-24", every = "5m";
+    std::string output, quality = "preview", parts = "auto", hours = "0-24", every = "5m", directional = "auto";
     double error = 0.0;
     int bounces = 64, threads = 0;
     std::uint64_t seed = 1;
@@ -31,6 +31,12 @@ double error_of(const BakeOptions& options) {
     if (options.quality == "medium") return 0.03;
     if (options.quality == "high") return 0.01;
     throw UsageError("--quality", "'" + options.quality + "' is not one of preview, medium, high");
+}
+
+bool directional_of(const BakeOptions& options) {
+    if (options.directional == "auto") return true;
+    if (options.directional == "off") return false;
+    throw UsageError("--directional", "'" + options.directional + "' is not one of auto, off");
 }
 
 std::vector<std::string> parts_of(const std::string& text) {
@@ -63,6 +69,7 @@ void read_hours(const BakeOptions& options, BakeSettings& settings) {
 
 BakeSettings settings_from(const BakeOptions& options) {
     BakeSettings settings;
+    settings.directional = directional_of(options);
     settings.error = error_of(options);
     settings.parts = parts_of(options.parts);
     settings.seed = options.seed;
@@ -122,6 +129,11 @@ void add_bake(CLI::App& app) {
         ->excludes(quality);
     command
         ->add_option("--parts", options->parts, "auto, or a list of lightmap, volume, dirmap, antiradiance, caustics")
+        ->group(group)
+        ->capture_default_str();
+    command
+        ->add_option("--directional", options->directional,
+                     "auto (lightmaps under normal maps know how light changes with the normal) | off")
         ->group(group)
         ->capture_default_str();
     command->add_option("--hours", options->hours, "FROM-TO, local clock")->group(group)->capture_default_str();

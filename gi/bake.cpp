@@ -10,6 +10,7 @@
 #include "gi/encode/encode_volume.h"
 #include "gi/surface/smooth.h"
 #include "gi/transport/day_gather/day_gather.h"
+#include "gi/transport/day_gather/texel_tilts.h"
 
 namespace daylit {
 namespace {
@@ -32,8 +33,8 @@ std::vector<bool> shown(const Atlas& atlas, const Texels& texels, const GatherHi
     return result;
 }
 
-std::string describe(const EncodedLightmap& encoded, const Texels& texels, const BakePlan& plan,
-                     const DaySolution& day) {
+std::string describe(const EncodedLightmap& encoded, const Texels& texels, const BakePlan& plan, const DaySolution& day,
+                     const TexelTilts& tilts) {
     char error[32], patterns[160];
     std::snprintf(error, sizeof error, "%.4f", day.basis.error);
     std::snprintf(patterns, sizeof patterns,
@@ -41,7 +42,13 @@ std::string describe(const EncodedLightmap& encoded, const Texels& texels, const
                   int(encoded.map.basis.hours.size()), encoded.mean_patterns, encoded.map.slots(), encoded.worst_tile);
     return std::to_string(texels.count()) + " texels, " + std::to_string(plan.rays) + " rays each, " +
            std::to_string(plan.hours.size()) + " hours in " + std::to_string(day.basis.components) +
-           " components (error " + error + "), " + std::to_string(day.bounces) + " bounces; " + patterns;
+           " components (error " + error + "), " + std::to_string(day.bounces) + " bounces; " +
+           (tilts.count() ? std::to_string(tilts.count()) + " texels under normal maps with tilts; " : "") + patterns;
+}
+
+std::vector<bool> both(std::vector<bool> a, const std::vector<bool>& b) {
+    for (std::size_t i = 0; i < a.size(); ++i) a[i] = a[i] && b[i];
+    return a;
 }
 
 /// Each texel that is shown is its own row.
@@ -72,7 +79,7 @@ void note(std::vector<PlanItem>& plan, const char* part, const std::string& why,
 /// Of all that decides what is traced.
 std::uint64_t checkpoint_key(const Scene& scene, const WorldMesh& mesh, const BakePlan& plan,
                              const BakeSettings& settings) {
-    constexpr std::uint64_t kStage = 1;  // changes whenever what is traced does
+    constexpr std::uint64_t kStage = 2;  // changes whenever what is traced does
     std::uint64_t key = mix64(kStage ^ mix64(geometry_hash(mesh)));
     for (const std::uint64_t part : {std::uint64_t(plan.texel_budget), std::uint64_t(plan.rays), settings.seed,
                                      std::uint64_t(settings.lambert), std::bit_cast<std::uint64_t>(settings.unit)})
@@ -99,17 +106,23 @@ void bake_light(const Scene& scene, const WorldMesh& mesh, std::span<const Place
         checkpoint = Checkpoint(settings.checkpoint, checkpoint_key(scene, mesh, plan, settings), settings.resume);
     const GatherHits hits = trace_hits(gather, how, checkpoint, {progress, 0.02, 0.42});
     const std::vector<ByLit> lamp_light = lamp_irradiance(gather, hits, how, {progress, 0.46, 0.5});
-    DaySolution day = solve_day(gather, hits, lamp_light, day_light(light, plan.hours), how, {progress, 0.5, 0.95});
+    DaySolution day = solve_day(gather, hits, lamp_light, day_light(light, plan.hours), how, {progress, 0.5, 0.85});
     if (plan.lightmap) {
         const std::vector<bool> open = in_the_open(texels, hits);
-        day.texels = smooth(smoothing_weights(rays, texels, hits.nearness, open), day.texels, day.basis.components);
+        const SmoothingWeights weights = smoothing_weights(rays, texels, hits.nearness, open);
+        day.texels = smooth(weights, day.texels, day.basis.components);
+        TexelTilts tilts;
+        if (settings.directional) {
+            tilts = texel_tilts(gather, hits, day, both(open, normal_mapped(gather)), how, {progress, 0.85, 0.9});
+            smooth_tilts(gather, weights, day.basis.components, tilts);
+        }
         DayLightmap shape;
         shape.width = atlas.width, shape.height = atlas.height, shape.corner_uvs = atlas.corner_uvs;
         const LightRows rows{light_basis(day.basis), 1, day.texels, moments(day, light)};
         EncodedLightmap encoded =
-            encode_lightmap(std::move(shape), rows,
+            encode_lightmap(std::move(shape), rows, {tilts.row_of_texel, tilts.rows},
                             rows_of_pixels(atlas, texels, rows_of_texels(shown(atlas, texels, hits, open))), {});
-        note(baked.plan, "lightmap", describe(encoded, texels, plan, day), encoded.error);
+        note(baked.plan, "lightmap", describe(encoded, texels, plan, day, tilts), encoded.error);
         baked.lightmap = std::move(encoded.map);
     }
     if (plan.volume) {

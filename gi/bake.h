@@ -21,6 +21,7 @@ struct BakeSettings {
     double every_hours = 1.0 / 12.0;
     int bounces = 64;  // at most; ends when the rest no longer counts
     std::uint64_t seed = 1;
+    bool directional = true;  // lightmaps hold how light changes as the normal leans, where surfaces have normal maps
     VolumeSettings volume;           // what is zero in it follows from `error`
     std::vector<std::string> parts;  // empty: auto
     /// Where the state of an unfinished bake is kept, for `resume` to go on from; empty: nowhere. Whoever asks for the

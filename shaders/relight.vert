@@ -3,10 +3,11 @@
 #include "shaders/shared/lightmap.h"
 layout(binding = 0) uniform sampler2DArray values;
 layout(std430, binding = 1) readonly buffer Tiles { uint tiles[]; };
+layout(location = 0) uniform uint first_tile;
 flat out uint v_tile;
 
 void main() {
-    v_tile = tiles[gl_InstanceID];
+    v_tile = tiles[first_tile + uint(gl_InstanceID)];
     ivec2 size = textureSize(values, 0).xy;
     uint across = uint(size.x + kLightmapTileSide - 1) / uint(kLightmapTileSide);
     vec2 corner = vec2(v_tile % across, v_tile / across) + vec2(gl_VertexID & 1, gl_VertexID >> 1);

@@ -142,23 +142,33 @@ void main() {
     out_light = vec4(vec3(depth) * cover, 1.0);
 #else
     Light direct = Light(vec3(0.0), vec3(0.0));
-    vec3 indirect = vec3(0.0);
+    vec3 indirect = vec3(0.0);  // irradiance
+    vec3 mirrored = vec3(0.0);  // radiance about the mirrored view
 #if defined(SHOW_FINAL) || defined(SHOW_DIRECT) || defined(SHOW_IRRADIANCE)
     direct = direct_light(brdf, normal, face_normal, view);
     direct.irradiance *= evenness;
     direct.radiance *= evenness;
 #endif
 #if defined(LIGHTMAP) && (defined(SHOW_FINAL) || defined(SHOW_INDIRECT) || defined(SHOW_IRRADIANCE) || defined(SHOW_LIGHTMAP))
+#if defined(TILTED) && defined(NORMAL_TEXTURE)
+    TiltedLight baked = baked_tilted_light(v_lightmap_uv, v_position, normalize(v_normal));
+    indirect = baked_irradiance(baked, normal * side);
+    mirrored = baked_radiance(baked, reflect(-view, normal) * side, brdf.exponent);
+#else
     indirect = baked_irradiance(v_lightmap_uv);
+    mirrored = indirect / kSharedPi;
+#endif
 #endif
 #if defined(VOLUME) && (defined(SHOW_FINAL) || defined(SHOW_INDIRECT) || defined(SHOW_IRRADIANCE) || defined(SHOW_VOLUME))
     indirect = gl_FrontFacing ? v_volume_front : v_volume_back;
+    mirrored = indirect / kSharedPi;
 #endif
 #if defined(SHOW_IRRADIANCE) || defined(SHOW_LIGHTMAP) || defined(SHOW_VOLUME)
     out_light = vec4((direct.irradiance + indirect) * cover, 1.0);
 #else
-    // The gloss of indirect light in its rough first form: as if it came evenly from all around.
-    vec3 radiance = direct.radiance + indirect * (brdf.diffuse + brdf.specular) / kSharedPi;
+    // The gloss of indirect light in its rough first form: what is known of it changes slowly with direction.
+    float gloss = phong_directional_albedo(brdf.exponent, dot(normal, view));
+    vec3 radiance = direct.radiance + indirect * brdf.diffuse / kSharedPi + mirrored * brdf.specular * gloss;
 #if defined(SHOW_FINAL) || defined(SHOW_DIRECT)
     radiance += emission;
 #endif

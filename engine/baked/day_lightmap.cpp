@@ -7,17 +7,39 @@
 namespace daylit {
 namespace {
 
+/// The sum of a texel's patterns. plane: the first slot's numbers; slots lie `stride` apart
+Rgb pattern_sum(const DayLightmap& map, int x, int y, const std::int16_t* plane, std::size_t stride,
+                std::span<const Rgb> tile_light) {
+    const std::size_t texel = std::size_t(y) * std::size_t(map.width) + std::size_t(x);
+    const std::size_t tile = map.tile_at(x, y);
+    Rgb sum(0.0f);
+    for (std::size_t p = 0; p < map.tile_patterns[tile]; ++p)
+        sum += std::ldexp(float(plane[p * stride + texel]), -2 * int(map.exponents[texel])) *
+               tile_light[tile * DayLightmap::kMostPatterns + p];
+    return sum;
+}
+
 /// One texel: the patterns are summed first and clamped then, as the relight pass does, so that a bilinear fetch mixes
 /// light that exists.
 Rgb relit_texel(const DayLightmap& map, int x, int y, std::span<const Rgb> tile_light) {
-    const std::size_t texel = std::size_t(y) * std::size_t(map.width) + std::size_t(x);
-    const std::size_t tile = std::size_t(y / DayLightmap::kTileSide) * std::size_t(map.tiles_across()) +
-                             std::size_t(x / DayLightmap::kTileSide);
-    Rgb sum(0.0f);
-    for (std::size_t p = 0; p < map.tile_patterns[tile]; ++p)
-        sum += std::ldexp(float(map.values[p * map.texels() + texel]), -2 * int(map.exponents[texel])) *
-               tile_light[tile * DayLightmap::kMostPatterns + p];
-    return glm::max(sum, Rgb(0.0f));
+    return glm::max(pattern_sum(map, x, y, map.values.data(), map.texels(), tile_light), Rgb(0.0f));
+}
+
+Rgb relit_tilt(const DayLightmap& map, int x, int y, std::size_t axis, std::span<const Rgb> tile_light) {
+    if (map.tilts.empty() || !map.tile_tilted[map.tile_at(x, y)]) return Rgb(0.0f);
+    return DayLightmap::kTiltScale *
+           pattern_sum(map, x, y, map.tilts.data() + axis * map.texels(), 2 * map.texels(), tile_light);
+}
+
+/// texel(x, y) mixed as a bilinear fetch does.
+template <class Texel>
+Rgb bilinear(const DayLightmap& map, const Vec2& uv, const Texel& texel) {
+    const float x = std::clamp(uv.x * float(map.width) - 0.5f, 0.0f, float(map.width - 1));
+    const float y = std::clamp(uv.y * float(map.height) - 0.5f, 0.0f, float(map.height - 1));
+    const int x0 = int(x), y0 = int(y);
+    const int x1 = std::min(x0 + 1, map.width - 1), y1 = std::min(y0 + 1, map.height - 1);
+    const float fx = x - float(x0), fy = y - float(y0);
+    return glm::mix(glm::mix(texel(x0, y0), texel(x1, y0), fx), glm::mix(texel(x0, y1), texel(x1, y1), fx), fy);
 }
 
 }  // namespace
@@ -40,15 +62,19 @@ std::vector<Rgb> DayLightmap::tile_light(std::span<const Rgb> weights) const {
     return result;
 }
 
+std::size_t DayLightmap::tile_at(int x, int y) const {
+    return std::size_t(y / kTileSide) * std::size_t(tiles_across()) + std::size_t(x / kTileSide);
+}
+
 Rgb DayLightmap::irradiance(const Vec2& uv, std::span<const Rgb> tile_light) const {
-    const float x = std::clamp(uv.x * float(width) - 0.5f, 0.0f, float(width - 1));
-    const float y = std::clamp(uv.y * float(height) - 0.5f, 0.0f, float(height - 1));
-    const int x0 = int(x), y0 = int(y);
-    const int x1 = std::min(x0 + 1, width - 1), y1 = std::min(y0 + 1, height - 1);
-    const float fx = x - float(x0), fy = y - float(y0);
-    const Rgb top = glm::mix(relit_texel(*this, x0, y0, tile_light), relit_texel(*this, x1, y0, tile_light), fx);
-    const Rgb bottom = glm::mix(relit_texel(*this, x0, y1, tile_light), relit_texel(*this, x1, y1, tile_light), fx);
-    return glm::mix(top, bottom, fy);
+    return bilinear(*this, uv, [&](int x, int y) { return relit_texel(*this, x, y, tile_light); });
+}
+
+Rgb DayLightmap::irradiance(const Vec2& uv, const Vec3& lean, std::span<const Rgb> tile_light) const {
+    const auto tilt = [&](std::size_t axis) {
+        return bilinear(*this, uv, [&](int x, int y) { return relit_tilt(*this, x, y, axis, tile_light); });
+    };
+    return glsl::tilted_irradiance(irradiance(uv, tile_light), tilt(0), tilt(1), lean);
 }
 
 }  // namespace daylit

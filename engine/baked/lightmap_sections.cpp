@@ -121,49 +121,53 @@ void decode_patterns(ByteReader r, DayLightmap& map) {
         }
 }
 
-/// Calls use(plane, x, y) for the texels of every slot, tile by tile, in tiles that have it.
+/// A set of planes of numbers, tile by tile: texels' values, or their tilts.
+struct Planes {
+    std::vector<std::int16_t> DayLightmap::*numbers;
+    int a_slot;         // planes for each slot
+    bool tilted_tiles;  // numbers in those alone
+};
+constexpr Planes kValuePlanes{&DayLightmap::values, 1, false}, kTiltPlanes{&DayLightmap::tilts, 2, true};
+
+/// Calls use(x, y) for the texels of every tile that has numbers in a plane, tile by tile.
 template <class Use>
-void for_tiles(const DayLightmap& map, int slot, const Use& use) {
+void for_tiles(const DayLightmap& map, const Planes& planes, int plane, const Use& use) {
     for (int tile = 0; tile < int(map.tiles()); ++tile) {
-        if (map.tile_patterns[std::size_t(tile)] <= slot) continue;
+        if (map.tile_patterns[std::size_t(tile)] <= plane / planes.a_slot) continue;
+        if (planes.tilted_tiles && !map.tile_tilted[std::size_t(tile)]) continue;
         const int x0 = tile % map.tiles_across() * map.kTileSide, y0 = tile / map.tiles_across() * map.kTileSide;
         for (int y = y0; y < std::min(y0 + map.kTileSide, map.height); ++y)
             for (int x = x0; x < std::min(x0 + map.kTileSide, map.width); ++x) use(x, y);
     }
 }
 
-Bytes code_texels(const DayLightmap& map) {
-    ByteWriter w;
-    w.put_all(map.exponents);
+void put_planes(ByteWriter& w, const DayLightmap& map, const Planes& planes) {
     std::vector<std::int16_t> surprises;
-    for (int slot = 0; slot < map.slots(); ++slot) {
-        const std::int16_t* plane = map.values.data() + std::size_t(slot) * map.texels();
-        for_tiles(map, slot, [&](int x, int y) {
+    for (int i = 0; i < map.slots() * planes.a_slot; ++i) {
+        const std::int16_t* plane = (map.*planes.numbers).data() + std::size_t(i) * map.texels();
+        for_tiles(map, planes, i, [&](int x, int y) {
             surprises.push_back(std::int16_t(plane[std::ptrdiff_t(y) * map.width + x] -
                                              predicted_texel(plane, map.width, map.kTileSide, x, y)));
         });
     }
     put_integers(w, surprises);
-    return w.take();
 }
 
-std::size_t coded_texels(const DayLightmap& map) {
+std::size_t coded_numbers(const DayLightmap& map, const Planes& planes) {
     std::size_t count = 0;
-    for (int slot = 0; slot < map.slots(); ++slot) for_tiles(map, slot, [&](int, int) { ++count; });
+    for (int i = 0; i < map.slots() * planes.a_slot; ++i) for_tiles(map, planes, i, [&](int, int) { ++count; });
     return count;
 }
 
-void decode_texels(ByteReader r, DayLightmap& map) {
-    map.exponents = r.get_all<std::uint8_t>(map.texels());
-    for (std::uint8_t exponent : map.exponents)
-        if (exponent > DayLightmap::kLargestExponent) r.fail("holds a texel that is out of range");
-    const std::vector<std::int16_t> surprises = get_integers(r, coded_texels(map));
+void get_planes(ByteReader& r, const Planes& planes, DayLightmap& map) {
+    const std::vector<std::int16_t> surprises = get_integers(r, coded_numbers(map, planes));
     r.expect_end();
-    map.values.assign(std::size_t(map.slots()) * map.texels(), 0);
+    std::vector<std::int16_t>& numbers = map.*planes.numbers;
+    numbers.assign(std::size_t(map.slots() * planes.a_slot) * map.texels(), 0);
     const std::int16_t* next = surprises.data();
-    for (int slot = 0; slot < map.slots(); ++slot) {
-        std::int16_t* plane = map.values.data() + std::size_t(slot) * map.texels();
-        for_tiles(map, slot, [&](int x, int y) {
+    for (int i = 0; i < map.slots() * planes.a_slot; ++i) {
+        std::int16_t* plane = numbers.data() + std::size_t(i) * map.texels();
+        for_tiles(map, planes, i, [&](int x, int y) {
             const int value = predicted_texel(plane, map.width, map.kTileSide, x, y) + *next++;
             if (std::abs(value) > DayLightmap::kLargestValue) r.fail("holds a texel that is out of range");
             plane[std::ptrdiff_t(y) * map.width + x] = std::int16_t(value);
@@ -171,11 +175,43 @@ void decode_texels(ByteReader r, DayLightmap& map) {
     }
 }
 
+Bytes code_texels(const DayLightmap& map) {
+    ByteWriter w;
+    w.put_all(map.exponents);
+    put_planes(w, map, kValuePlanes);
+    return w.take();
+}
+
+void decode_texels(ByteReader r, DayLightmap& map) {
+    map.exponents = r.get_all<std::uint8_t>(map.texels());
+    for (std::uint8_t exponent : map.exponents)
+        if (exponent > DayLightmap::kLargestExponent) r.fail("holds a texel that is out of range");
+    get_planes(r, kValuePlanes, map);
+}
+
+Bytes code_tilts(const DayLightmap& map) {
+    ByteWriter w;
+    w.put_all(map.tile_tilted);
+    put_planes(w, map, kTiltPlanes);
+    return w.take();
+}
+
+void decode_tilts(ByteReader r, DayLightmap& map) {
+    map.tile_tilted = r.get_all<std::uint8_t>(map.tiles());
+    for (std::uint8_t tilted : map.tile_tilted)
+        if (tilted > 1) r.fail("has a tile that neither has tilts nor has none");
+    if (3 * std::size_t(map.slots()) * map.texels() > kMostValues) r.fail("has too many texels");
+    get_planes(r, kTiltPlanes, map);
+}
+
 }  // namespace
 
 std::vector<CodedSection> code_lightmap(const DayLightmap& map) {
-    return {code_section("LMAP", code_shape(map)), code_section("LMUV", code_corner_uvs(map)),
-            code_section("LMPT", code_patterns(map)), code_section("LMTX", code_texels(map))};
+    std::vector<CodedSection> sections = {
+        code_section("LMAP", code_shape(map)), code_section("LMUV", code_corner_uvs(map)),
+        code_section("LMPT", code_patterns(map)), code_section("LMTX", code_texels(map))};
+    if (map.tilted()) sections.push_back(code_section("LMTI", code_tilts(map)));
+    return sections;
 }
 
 bool has_lightmap(const SectionFile& file) {
@@ -192,7 +228,8 @@ DayLightmap read_lightmap(const SectionFile& file) {
     decode_corner_uvs(file.open("LMUV", 8 * shape.corners), shape.corners, map);
     const std::size_t patterns = pattern_count(map);
     decode_patterns(file.open("LMPT", patterns * (sizeof(float) + 6 * std::size_t(map.basis.components))), map);
-    decode_texels(file.open("LMTX", map.texels() + 2 * coded_texels(map)), map);
+    decode_texels(file.open("LMTX", map.texels() + 2 * coded_numbers(map, kValuePlanes)), map);
+    if (file.has("LMTI")) decode_tilts(file.open("LMTI", map.tiles() + 4 * coded_numbers(map, kValuePlanes)), map);
     return std::move(shape.map);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The day lightmap in a file: sections 'LMAP', 'LMUV', 'LMPT', 'LMTX'.
+// The day lightmap in a file: sections 'LMAP', 'LMUV', 'LMPT', 'LMTX', 'LMTI'.
 #include "engine/baked/day_lightmap.h"
 #include "engine/baked/section_file.h"
 

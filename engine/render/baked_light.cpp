@@ -11,13 +11,14 @@ namespace {
 
 constexpr int kPerLayer = 4;  // patterns in the channels of one layer
 
-/// A layer's four patterns as halves, texel by texel.
-std::vector<std::uint16_t> layer_halves(const DayLightmap& map, int layer) {
+/// A layer's four patterns as halves, texel by texel. planes: the first slot's numbers; slots lie `stride` apart
+std::vector<std::uint16_t> layer_halves(const DayLightmap& map, int layer, const std::int16_t* planes,
+                                        std::size_t stride) {
     std::vector<std::uint16_t> halves(kPerLayer * map.texels(), 0);
     for (int slot = layer * kPerLayer; slot < std::min((layer + 1) * kPerLayer, map.slots()); ++slot)
         for (std::size_t t = 0; t < map.texels(); ++t)
             halves[kPerLayer * t + std::size_t(slot % kPerLayer)] = glm::packHalf1x16(
-                std::ldexp(float(map.values[std::size_t(slot) * map.texels() + t]), -2 * int(map.exponents[t])));
+                std::ldexp(float(planes[std::size_t(slot) * stride + t]), -2 * int(map.exponents[t])));
     return halves;
 }
 
@@ -36,17 +37,31 @@ BakedLight::BakedLight(const DayLightmap& lightmap) {
     check_size(lightmap);
     const int layers = std::max(1, (lightmap.slots() + kPerLayer - 1) / kPerLayer);
     const TextureLook nearest{GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE, GL_NONE};
-    values_ = make_texture_array(GL_RGBA16F, lightmap.width, lightmap.height, layers, 1, nearest);
+    const bool tilted = lightmap.tilted();
+    values_ = make_texture_array(GL_RGBA16F, lightmap.width, lightmap.height, tilted ? 3 * layers : layers, 1, nearest);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    for (int layer = 0; layer < layers; ++layer)
-        glTextureSubImage3D(values_.get(), 0, 0, 0, layer, lightmap.width, lightmap.height, 1, GL_RGBA, GL_HALF_FLOAT,
-                            layer_halves(lightmap, layer).data());
+    const auto upload = [&](int to, int layer, const std::int16_t* planes, std::size_t stride) {
+        glTextureSubImage3D(values_.get(), 0, 0, 0, to, lightmap.width, lightmap.height, 1, GL_RGBA, GL_HALF_FLOAT,
+                            layer_halves(lightmap, layer, planes, stride).data());
+    };
+    const std::size_t texels = lightmap.texels();
+    for (int layer = 0; layer < layers; ++layer) {
+        upload(layer, layer, lightmap.values.data(), texels);
+        for (int axis = 0; tilted && axis < 2; ++axis)
+            upload((1 + axis) * layers + layer, layer, lightmap.tilts.data() + std::size_t(axis) * texels, 2 * texels);
+    }
     irradiance_ = make_texture_2d(GL_RGBA16F, lightmap.width, lightmap.height);
     framebuffer_ = make_framebuffer({irradiance_.get()});
+    if (tilted) {
+        for (GlTexture& tilt : tilts_) tilt = make_texture_2d(GL_RGBA16F, lightmap.width, lightmap.height);
+        tilted_framebuffer_ = make_framebuffer({irradiance_.get(), tilts_[0].get(), tilts_[1].get()});
+    }
     map_ = lightmap;
-    map_.values = {}, map_.exponents = {}, map_.corner_uvs = {};
+    map_.values = {}, map_.tilts = {}, map_.exponents = {}, map_.corner_uvs = {};
     for (std::uint32_t tile = 0; tile < map_.tile_patterns.size(); ++tile)
         if (map_.tile_patterns[tile] > 0) tiles_.push_back(tile);
+    const auto plain = [&](std::uint32_t tile) { return !tilted || !map_.tile_tilted[tile]; };
+    plain_tiles_ = std::size_t(std::stable_partition(tiles_.begin(), tiles_.end(), plain) - tiles_.begin());
     light_buffer_ = make_buffer(std::vector<Vec4>(map_.tiles() * DayLightmap::kMostPatterns), GL_DYNAMIC_STORAGE_BIT);
     tile_buffer_ = make_buffer(tiles_.empty() ? std::vector<std::uint32_t>(1) : tiles_, 0);
 }
@@ -68,18 +83,34 @@ int BakedLight::set_light(const LightScales& scales, double hour, Programs& prog
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, tile_buffer_.get());
     glBindTextureUnit(0, values_.get());
     glBindSampler(0, 0);
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
     glViewport(0, 0, map_.width, map_.height);
-    if (!lit_) {
-        constexpr float kBlack[] = {0.0f, 0.0f, 0.0f, 1.0f};
-        glClearBufferfv(GL_COLOR, 0, kBlack);  // tiles without light stay so
-    }
     glDisable(GL_DEPTH_TEST);
-    programs.get("relight.vert", "relight.frag").use();
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(tiles_.size()));
+    const auto relight = [&](GLuint framebuffer, const std::vector<std::string>& defines, std::size_t first,
+                             std::size_t last) {
+        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+        constexpr float kBlack[] = {0.0f, 0.0f, 0.0f, 1.0f};
+        for (GLint buffer = 0; !lit_ && buffer < (defines.empty() ? 1 : 3); ++buffer)
+            glClearBufferfv(GL_COLOR, buffer, kBlack);  // tiles without light stay so
+        if (first == last) return;
+        programs.get("relight.vert", "relight.frag", defines).use();
+        glUniform1ui(0, GLuint(first));
+        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(last - first));
+    };
+    if (tilted()) relight(tilted_framebuffer_.get(), {"TILTED"}, plain_tiles_, tiles_.size());
+    lit_ = lit_ || tilted();  // all is cleared
+    relight(framebuffer_.get(), {}, 0, plain_tiles_);
     glEnable(GL_DEPTH_TEST);
     lit_ = true;
     return int(tiles_.size());
+}
+
+void BakedLight::bind() const {
+    const auto bind = [](GLuint unit, GLuint texture) {
+        glBindTextureUnit(unit, texture);
+        glBindSampler(unit, 0);
+    };
+    bind(4, irradiance_.get());
+    if (tilted()) bind(10, tilts_[0].get()), bind(11, tilts_[1].get());
 }
 
 }  // namespace daylit

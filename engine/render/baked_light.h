@@ -1,7 +1,6 @@
 #pragma once
 // The embeddable face of baked light: a host sets the light, includes shaders/baked_light.glsl in its own program,
-// binds texture() to unit 4, and multiplies the irradiance it fetches by albedo / pi. It needs no other part of the
-// renderer.
+// calls bind(), and multiplies the irradiance it fetches by albedo / pi. It needs no other part of the renderer.
 #include <vector>
 
 #include "engine/baked/day_lightmap.h"
@@ -24,14 +23,19 @@ class BakedLight {
 
     /// RGBA16F, lux, *indirect* irradiance; coordinates as DayLightmap::corner_uvs.
     GLuint texture() const { return irradiance_.get(); }
+    /// Whether texels under normal maps know how light changes as the normal leans: programs may define TILTED.
+    bool tilted() const { return tilts_[0].get() != 0; }
+    /// Binds what shaders/baked_light.glsl reads: texture units 4, 10 and 11.
+    void bind() const;
 
   private:
     DayLightmap map_;           // without texels and coordinates
     std::vector<Rgb> weights_;  // of irradiance_; empty: not lit yet
     bool lit_ = false;
-    std::vector<std::uint32_t> tiles_;  // that hold light
-    GlTexture values_, irradiance_;
-    GlFramebuffer framebuffer_;
+    std::vector<std::uint32_t> tiles_;  // that hold light, those without tilts first
+    std::size_t plain_tiles_ = 0;       // that have no tilts
+    GlTexture values_, irradiance_, tilts_[2];
+    GlFramebuffer framebuffer_, tilted_framebuffer_;
     GlBuffer light_buffer_, tile_buffer_;
 };
 

@@ -294,7 +294,10 @@ FrameDefines Renderer::State::frame_defines(Layer show) const {
         defines.lamps = {"LAMPS " + std::to_string((lamp_shadow.lamp_count() + 31) / 32)};
         if (lamp_shadow.any_spots()) defines.lamps.push_back("SPOTS");
     }
-    if (baked_light && shows_baked_light(show)) defines.part[0].push_back("LIGHTMAP");
+    if (baked_light && shows_baked_light(show)) {
+        defines.part[0].push_back("LIGHTMAP");
+        if (baked_light->tilted()) defines.part[0].push_back("TILTED");
+    }
     if (baked_volume && shows_baked_light(show)) defines.part[1].push_back("VOLUME");
     return defines;
 }
@@ -325,7 +328,7 @@ FrameReport Renderer::draw(const FrameSettings& frame) {
         s.sun_shadow.use(block);
         s.lamp_shadow.use(block);
     }
-    if (s.baked_light) bind_texture(4, s.baked_light->texture());
+    if (s.baked_light) s.baked_light->bind();
     if (s.baked_volume) s.baked_volume->bind();
     glNamedBufferSubData(s.frame_buffer.get(), 0, sizeof block, &block);
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, s.frame_buffer.get());

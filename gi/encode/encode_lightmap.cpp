@@ -23,6 +23,7 @@ constexpr Eigen::Index kCheckedEvery = 3;  // texels of a tile on which its erro
 /// What all tiles share.
 struct Judge {
     const LightRows& rows;
+    const TiltRows& tilts;
     const JudgedBasis& basis;
     Matrix truth;  // moment_weights of the dense curves
     Matrix shown;  // of the stored ones
@@ -35,17 +36,22 @@ struct Judge {
 struct TileRows {
     std::vector<std::uint32_t> pixels;  // of the atlas
     std::vector<std::uint8_t> exponents;
-    Matrix light;             // texel x (channel, component), over its brightness' step
+    bool tilted = false;
+    /// Rows of (channel, component), over their texels' brightness' step: texels, and in tilted tiles their tilts along
+    /// u, then along v, over kTiltScale.
+    Matrix light;
     double brightness = 0.0;  // of exponent 0
-    Eigen::Index count() const { return light.rows(); }
+    Eigen::Index count() const { return Eigen::Index(pixels.size()); }
+    auto texels() const { return light.topRows(count()); }
 };
 
 struct CodedTile {
     std::size_t patterns = 0;
     std::vector<float> scales;
     std::vector<std::int16_t> light;   // [pattern][channel][component]
-    std::vector<std::int16_t> values;  // [pattern][texel]
-    Vector wrong, all;                 // per moment: sums of squares over the texels that were checked
+    std::vector<std::int16_t> values;  // [pattern][row of TileRows::light]
+    std::size_t rows = 0;
+    Vector wrong, all;  // per moment: sums of squares over the texels that were checked
 };
 
 TileRows tile_rows(const Judge& judge, const DayLightmap& map, std::span<const std::uint32_t> row_of_pixel, int tile) {
@@ -56,22 +62,33 @@ TileRows tile_rows(const Judge& judge, const DayLightmap& map, std::span<const s
             const auto pixel = std::uint32_t(y * map.width + x);
             if (row_of_pixel[pixel] != ~0u) result.pixels.push_back(pixel);
         }
-    const Eigen::Index n = Eigen::Index(result.pixels.size()), q = judge.components(), given = judge.basis.turn.rows();
-    result.light.resize(n, 3 * q);
+    const Eigen::Index n = result.count(), q = judge.components(), given = judge.basis.turn.rows();
+    std::vector<std::uint32_t> rows;
+    for (const std::uint32_t pixel : result.pixels) rows.push_back(row_of_pixel[pixel]);
+    const auto tilt_row = [&](std::uint32_t row) { return judge.tilts.of_row.empty() ? ~0u : judge.tilts.of_row[row]; };
+    result.tilted = std::any_of(rows.begin(), rows.end(), [&](std::uint32_t row) { return tilt_row(row) != ~0u; });
+    Eigen::MatrixXf light = Eigen::MatrixXf::Zero(result.tilted ? 3 * n : n, given);
+    result.light.resize(light.rows(), 3 * q);
     for (int c = 0; c < 3; ++c) {
-        Eigen::MatrixXf light(n, given);
-        for (Eigen::Index i = 0; i < n; ++i)
-            for (Eigen::Index r = 0; r < given; ++r)
-                light(i, r) = judge.rows.row(row_of_pixel[result.pixels[std::size_t(i)]])[r][c];
+        for (Eigen::Index i = 0; i < n; ++i) {
+            const std::uint32_t row = rows[std::size_t(i)], tilts = tilt_row(row);
+            for (Eigen::Index r = 0; r < given; ++r) light(i, r) = judge.rows.row(row)[r][c];
+            if (tilts == ~0u) continue;
+            const Rgb* tilt = judge.tilts.rows.data() + std::size_t(tilts) * std::size_t(2 * given);
+            for (Eigen::Index axis = 0; axis < 2; ++axis)
+                for (Eigen::Index r = 0; r < given; ++r)
+                    light((1 + axis) * n + i, r) = tilt[axis * given + r][c] / DayLightmap::kTiltScale;
+        }
         result.light.middleCols(c * q, q) = (light * judge.basis.turn).cast<double>();
     }
-    const Vector brightness = (result.light.rowwise().norm() / std::sqrt(3.0)).cwiseMax(double(kDarkestRow));
+    const Vector brightness = (result.texels().rowwise().norm() / std::sqrt(3.0)).cwiseMax(double(kDarkestRow));
     result.brightness = n ? brightness.maxCoeff() : 0.0;
     for (Eigen::Index i = 0; i < n; ++i) {
         const int exponent =
             std::clamp(int(std::log2(result.brightness / brightness[i]) / 2.0), 0, map.kLargestExponent);
         result.exponents.push_back(std::uint8_t(exponent));
-        result.light.row(i) *= std::ldexp(1.0, 2 * exponent) / result.brightness;
+        for (Eigen::Index row = i; row < result.light.rows(); row += n)
+            result.light.row(row) *= std::ldexp(1.0, 2 * exponent) / result.brightness;
     }
     return result;
 }
@@ -105,15 +122,16 @@ Matrix moments_of(const Matrix& rows, const Matrix& weights) {
 }
 
 struct Patterns {
-    Matrix values;  // texel x pattern, orthogonal columns
+    Matrix values;  // row of TileRows::light x pattern, orthogonal columns
     Matrix light;   // pattern x (channel, component)
 };
 
 /// The first patterns of the tile, as many as keep its worst moment's error below what is asked.
 /// seen   what the tile's light is judged against at each moment
-Patterns principal_patterns(const Judge& judge, const TileRows& tile, const Matrix& gram, const Vector& squares,
-                            const Vector& seen, const LightmapSettings& settings) {
-    const Eigen::Index q = judge.components(), n = tile.count();
+Patterns principal_patterns(const Judge& judge, const TileRows& tile, const Vector& seen,
+                            const LightmapSettings& settings) {
+    const Eigen::Index q = judge.components(), n = tile.light.rows();
+    const Matrix gram = tile.light.transpose() * tile.light;
     Matrix judged = judge.parts;
     for (Eigen::Index m = 0; m < seen.size(); ++m) judged.middleCols(7 * m, 7) /= seen[m];
     Matrix metric = judged * judged.transpose() / double(seen.size());
@@ -128,8 +146,8 @@ Patterns principal_patterns(const Judge& judge, const TileRows& tile, const Matr
     const Eigen::SelfAdjointEigenSolver<Matrix> solver(turned);
 
     Patterns result{Matrix(n, settings.most_patterns), Matrix(settings.most_patterns, 3 * q)};
-    Vector left = squares;
-    const Vector allowed = (settings.error * seen).cwiseAbs2() * double(3 * n);
+    Vector left = moment_squares(gram, judge.truth);
+    const Vector allowed = (settings.error * seen).cwiseAbs2() * double(3 * tile.count());
     Eigen::Index count = 0;
     const Eigen::Index most = std::min<Eigen::Index>(settings.most_patterns, std::min(n, 3 * q));
     while (count < most && (left.array() > allowed.array()).any()) {
@@ -160,6 +178,7 @@ CodedTile quantise(const Judge& judge, const TileRows& tile, const Patterns& pat
                    const LightmapSettings& settings) {
     CodedTile coded;
     coded.patterns = std::size_t(patterns.values.cols());
+    coded.rows = std::size_t(tile.light.rows());
     const Vector per_channel = seen.cwiseInverse().replicate(3, 1);
     const Matrix shines = moments_of(patterns.light, judge.truth) * per_channel.asDiagonal();
     // A moment's weights, over what is seen then.
@@ -168,9 +187,9 @@ CodedTile quantise(const Judge& judge, const TileRows& tile, const Patterns& pat
         const double peak = std::max(shines.row(p).cwiseAbs().maxCoeff(), 1e-30);
         const double largest = patterns.values.col(p).cwiseAbs().maxCoeff();
         const double step = std::max(settings.step / peak, largest / DayLightmap::kLargestValue);
-        for (Eigen::Index i = 0; i < tile.count(); ++i)
+        for (Eigen::Index i = 0; i < tile.light.rows(); ++i)
             coded.values.push_back(rounded(patterns.values(i, p) / step, DayLightmap::kLargestValue));
-        const double typical = std::sqrt(patterns.values.col(p).squaredNorm() / double(tile.count()));
+        const double typical = std::sqrt(patterns.values.col(p).squaredNorm() / double(tile.light.rows()));
         const double fine =
             std::max(0.5 * settings.step / (typical * longest), patterns.light.row(p).cwiseAbs().maxCoeff() / 32767.0);
         for (Eigen::Index i = 0; i < patterns.light.cols(); ++i)
@@ -193,7 +212,7 @@ void measure(const Judge& judge, const TileRows& tile, const Vector& seen, Coded
     for (Eigen::Index i = 0; i < n; ++i) {
         rows.row(i) = tile.light.row(i * kCheckedEvery);
         for (Eigen::Index p = 0; p < k; ++p)
-            values(i, p) = double(coded.values[std::size_t(p * tile.count() + i * kCheckedEvery)]);
+            values(i, p) = double(coded.values[std::size_t(p) * coded.rows + std::size_t(i * kCheckedEvery)]);
     }
     const Matrix truth = moments_of(rows, judge.truth);
     const Matrix found = (values * moments_of(light, judge.shown)).cwiseMax(0.0);
@@ -204,14 +223,13 @@ void measure(const Judge& judge, const TileRows& tile, const Vector& seen, Coded
 
 CodedTile encode_tile(const Judge& judge, const TileRows& tile, const LightmapSettings& settings) {
     if (tile.count() == 0 || judge.components() == 0) return {};
-    const Matrix gram = tile.light.transpose() * tile.light;
-    const Vector squares = moment_squares(gram, judge.truth);
+    const Vector squares = moment_squares(tile.texels().transpose() * tile.texels(), judge.truth);
     Vector seen = (squares / double(3 * tile.count())).cwiseMax(0.0).cwiseSqrt();
     const double brightest = seen.maxCoeff();
     if (!(brightest > 0.0)) return {};
     // Below the darkest row that counts, light is judged as if it had that much.
     seen = seen.cwiseMax(std::max(kDarkestMoment * brightest, double(kDarkestRow) / tile.brightness));
-    const Patterns patterns = principal_patterns(judge, tile, gram, squares, seen, settings);
+    const Patterns patterns = principal_patterns(judge, tile, seen, settings);
     CodedTile coded = quantise(judge, tile, patterns, seen, settings);
     measure(judge, tile, seen, coded);
     return coded;
@@ -226,8 +244,12 @@ void fill_gaps(std::span<const std::uint32_t> row_of_pixel, int tile, std::size_
             if (row_of_pixel[pixel] != ~0u) continue;
             if (x > x0) map.exponents[pixel] = map.exponents[pixel - 1];
             for (std::size_t p = 0; p < patterns; ++p) {
-                std::int16_t* plane = map.values.data() + p * map.texels();
-                plane[pixel] = predicted_texel(plane, map.width, map.kTileSide, x, y);
+                const auto fill = [&](std::int16_t* plane) {
+                    plane[pixel] = predicted_texel(plane, map.width, map.kTileSide, x, y);
+                };
+                fill(map.values.data() + p * map.texels());
+                for (std::size_t axis = 0; !map.tilts.empty() && axis < 2; ++axis)
+                    fill(map.tilts.data() + (2 * p + axis) * map.texels());
             }
         }
 }
@@ -235,20 +257,29 @@ void fill_gaps(std::span<const std::uint32_t> row_of_pixel, int tile, std::size_
 void place(const TileRows& tile, const CodedTile& coded, DayLightmap& map) {
     map.scales.insert(map.scales.end(), coded.scales.begin(), coded.scales.end());
     map.patterns.insert(map.patterns.end(), coded.light.begin(), coded.light.end());
+    const std::size_t n = tile.pixels.size();
     for (std::size_t p = 0; p < coded.patterns; ++p)
-        for (std::size_t i = 0; i < tile.pixels.size(); ++i)
-            map.values[p * map.texels() + tile.pixels[i]] = coded.values[p * tile.pixels.size() + i];
+        for (std::size_t i = 0; i < n; ++i) {
+            map.values[p * map.texels() + tile.pixels[i]] = coded.values[p * coded.rows + i];
+            for (std::size_t axis = 0; tile.tilted && axis < 2; ++axis)
+                map.tilts[(2 * p + axis) * map.texels() + tile.pixels[i]] =
+                    coded.values[p * coded.rows + (1 + axis) * n + i];
+        }
     for (std::size_t i = 0; i < tile.pixels.size(); ++i) map.exponents[tile.pixels[i]] = tile.exponents[i];
 }
 
 }  // namespace
 
-EncodedLightmap encode_lightmap(DayLightmap map, const LightRows& rows, std::span<const std::uint32_t> row_of_pixel,
-                                const LightmapSettings& settings) {
+EncodedLightmap encode_lightmap(DayLightmap map, const LightRows& rows, const TiltRows& tilts,
+                                std::span<const std::uint32_t> row_of_pixel, const LightmapSettings& settings) {
     JudgedBasis basis = judge_basis(rows, settings.basis);
     basis.stored = rounded(std::move(basis.stored));
-    const Judge judge{rows, basis, moment_weights(basis.dense, rows.moments),
-                      moment_weights(basis.stored, rows.moments), part_weights(basis.dense, rows.moments)};
+    const Judge judge{rows,
+                      tilts,
+                      basis,
+                      moment_weights(basis.dense, rows.moments),
+                      moment_weights(basis.stored, rows.moments),
+                      part_weights(basis.dense, rows.moments)};
     std::vector<TileRows> tiles(map.tiles());
     std::vector<CodedTile> coded(map.tiles());
     tbb::parallel_for(std::size_t(0), tiles.size(), [&](std::size_t t) {
@@ -262,8 +293,13 @@ EncodedLightmap encode_lightmap(DayLightmap map, const LightRows& rows, std::spa
     map.basis = basis.stored;
     map.tile_patterns.clear();
     for (const CodedTile& c : coded) map.tile_patterns.push_back(std::uint8_t(c.patterns));
+    map.tile_tilted.clear();
+    for (std::size_t t = 0; t < tiles.size(); ++t)
+        map.tile_tilted.push_back(tiles[t].tilted && coded[t].patterns > 0 ? 1 : 0);
+    if (!map.tilted()) map.tile_tilted.clear();
     map.scales.clear(), map.patterns.clear();
     map.values.assign(std::size_t(map.slots()) * map.texels(), 0);
+    map.tilts.assign(map.tilted() ? 2 * map.values.size() : 0, 0);
     map.exponents.assign(map.texels(), 0);
     Vector wrong = Vector::Zero(judge.moments()), all = Vector::Zero(judge.moments());
     double pixels = 0.0;

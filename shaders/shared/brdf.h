@@ -39,6 +39,28 @@ SHARED_FN vec3 evaluate_brdf(Brdf brdf, float cos_lobe) {
     return brdf.diffuse / kSharedPi + brdf.specular * lobe;
 }
 
+// The share of light from all of the hemisphere alike that a Phong lobe of albedo 1 reflects towards a view, since the
+// lobe of a low view is half below the horizon and its light comes in low: 1 along the normal, the view's cosine for
+// narrow lobes. A soft maximum of cosine and 0, within 0.02 of quadrature for exponents from 0.5 on.
+SHARED_FN float phong_softness(float exponent) {
+    return 1.0f / (2.0f * exponent + 0.2f);
+}
+SHARED_FN float phong_directional_albedo(float exponent, float cos_view) {
+    if (exponent <= 0.0f) return 1.0f;  // the lobe of exponent 0 is that of Lambert
+    float q = phong_softness(exponent), c = max(cos_view, 0.0f);
+    return (c + sqrt(c * c + q)) / (1.0f + sqrt(1.0f + q));
+}
+// Its mean over the hemisphere of views, cosine-weighted: what counts when light goes on from surface to surface.
+SHARED_FN float phong_mean_albedo(float exponent) {
+    if (exponent <= 0.0f) return 1.0f;
+    float q = phong_softness(exponent), root = sqrt(1.0f + q);
+    return 2.0f / 3.0f * (1.0f + root * root * root - q * sqrt(q)) / (1.0f + root);
+}
+
+SHARED_FN vec3 mean_albedo(Brdf brdf) {
+    return brdf.diffuse + brdf.specular * phong_mean_albedo(brdf.exponent);
+}
+
 // The exponent of a Phong lobe seen under a uniform disc of the given angular radius: variances of the two narrow
 // kernels add (2 / n for the lobe, radius^2 / 2 for the disc): 2 / (2 / n + radius^2 / 2), written so that n may be 0.
 SHARED_FN float disc_widened_exponent(float exponent, float radius) {

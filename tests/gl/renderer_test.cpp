@@ -23,7 +23,9 @@ class RendererTest : public testing::Test {
     std::unique_ptr<GlContext> context_ = make_any_context({.debug = true});
 };
 
-float relative(float value, double expected) { return float(std::abs(value / expected - 1.0)); }
+float relative(float value, double expected) {
+    return float(std::abs(value / expected - 1.0));
+}
 
 TEST_F(RendererTest, plane_under_the_sun_is_albedo_e_cos_over_pi_gl) {
     const Scene scene = scene_of({ground(Vec3(0), 5, 5, 0)}, {lambert({0.5f, 0.25f, 0.75f})});
@@ -98,7 +100,8 @@ double disc_share(double x) {
 
 TEST_F(RendererTest, penumbra_of_an_edge_is_that_of_the_disc_gl) {
     // A roof over x < 0, three metres up; the sun stands overhead.
-    const Scene scene = scene_of({ground(Vec3(0), 5, 5, 0), ground(Vec3(-2.5f, 3, 0), 2.5f, 5, 0)}, {lambert(Rgb(0.8f))});
+    const Scene scene =
+        scene_of({ground(Vec3(0), 5, 5, 0), ground(Vec3(-2.5f, 3, 0), 2.5f, 5, 0)}, {lambert(Rgb(0.8f))});
     Renderer renderer(scene, nullptr);
     renderer.set_lighting(one_sun({0, 1, 0}, 100000.0f));
     FrameSettings frame = frame_of(from_above(0.08f), 64, 64);
@@ -180,13 +183,15 @@ TEST_F(RendererTest, blend_covers_and_dims_by_alpha_gl) {
     veil.alpha_mode = AlphaMode::Blend;
     Material lower = veil;
     lower.base_color.a = 0.5f;
-    const Scene scene = scene_of({ground(Vec3(0), 5, 5, 0), ground(Vec3(0, 0.5f, 0), 1, 1, 2), ground(Vec3(0, 1, 0), 1, 1, 1)},
-                                 {lambert(Rgb(0.5f)), veil, lower});
+    const Scene scene =
+        scene_of({ground(Vec3(0), 5, 5, 0), ground(Vec3(0, 0.5f, 0), 1, 1, 2), ground(Vec3(0, 1, 0), 1, 1, 1)},
+                 {lambert(Rgb(0.5f)), veil, lower});
     Renderer renderer(scene, nullptr);
     renderer.set_lighting(one_sun({0, 1, 0}, 1000.0f));
     renderer.draw(frame_of(from_above(4.0f), 64, 64));
     const Image image = renderer.read_radiance();
-    const double ground_light = 0.5 * 1000.0 * 0.75 * 0.5 / kPi, lower_light = 1000.0 * 0.75 / kPi, upper_light = 1000.0 / kPi;
+    const double ground_light = 0.5 * 1000.0 * 0.75 * 0.5 / kPi, lower_light = 1000.0 * 0.75 / kPi,
+                 upper_light = 1000.0 / kPi;
     const double behind_upper = 0.5 * lower_light + 0.5 * ground_light;
     EXPECT_LT(relative(image.at(32, 32).g, 0.25 * upper_light + 0.75 * behind_upper), 0.005);
     EXPECT_LT(relative(image.at(4, 4).g, 500.0 / kPi), 0.005);
@@ -195,8 +200,8 @@ TEST_F(RendererTest, blend_covers_and_dims_by_alpha_gl) {
 TEST_F(RendererTest, culling_does_not_change_the_picture_gl) {
     std::vector<Primitive> quads = {ground(Vec3(0), 50, 50, 0)};
     for (int i = 0; i < 100; ++i)
-        quads.push_back(ground({float(i % 10) * 4.0f - 20.0f, 0.5f + float(i % 7) * 0.2f, float(i / 10) * 4.0f - 20.0f}, 0.5f,
-                               0.7f, i % 2));
+        quads.push_back(ground({float(i % 10) * 4.0f - 20.0f, 0.5f + float(i % 7) * 0.2f, float(i / 10) * 4.0f - 20.0f},
+                               0.5f, 0.7f, i % 2));
     const Scene scene = scene_of(quads, {lambert(Rgb(0.8f)), lambert(Rgb(0.3f))});
     Renderer culled(scene, nullptr), whole(scene, nullptr);
     FrameSettings frame = frame_of(look_at({0, 1.7f, 0}, {5, 1, 5}, 1.0f), 160, 90);
@@ -211,7 +216,8 @@ TEST_F(RendererTest, culling_does_not_change_the_picture_gl) {
 
 TEST_F(RendererTest, what_is_left_out_in_the_dark_does_not_change_the_picture_gl) {
     std::vector<Primitive> quads = {ground(Vec3(0, 4, 0), 3, 3, 0)};  // a roof over a floor of tiles
-    for (int i = 0; i < 400; ++i) quads.push_back(ground({float(i % 20) - 9.5f, 0, float(i / 20) - 9.5f}, 0.5f, 0.5f, 0));
+    for (int i = 0; i < 400; ++i)
+        quads.push_back(ground({float(i % 20) - 9.5f, 0, float(i / 20) - 9.5f}, 0.5f, 0.5f, 0));
     const Scene scene = scene_of(quads, {lambert(Rgb(0.8f))});
     Renderer renderer(scene, nullptr);
     FrameSettings frame = frame_of(from_above(16.0f, Vec3(0), 3.0f), 128, 128);
@@ -260,8 +266,8 @@ TEST_F(RendererTest, a_moved_node_is_drawn_where_it_is_gl) {
     EXPECT_EQ(image.at(32 - 4, 32).g, 0.0f);
 }
 
-TEST_F(RendererTest, a_constant_lightmap_is_shown_exactly_gl) {
-    const Scene scene = scene_of({ground(Vec3(0), 5, 5, 0)}, {lambert(Rgb(0.5f))});
+/// 512 * weight at 6:00 and 2048 * weight at 18:00, all over the four corners of a quad.
+Baked constant_lightmap() {
     Baked baked;
     baked.lightmap.emplace();
     DayLightmap& map = *baked.lightmap;
@@ -277,6 +283,12 @@ TEST_F(RendererTest, a_constant_lightmap_is_shown_exactly_gl) {
     map.values.insert(map.values.end(), 4 * 4, 1024);
     map.exponents.assign(4 * 4, 0);
     map.corner_uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
+    return baked;
+}
+
+TEST_F(RendererTest, a_constant_lightmap_is_shown_exactly_gl) {
+    const Scene scene = scene_of({ground(Vec3(0), 5, 5, 0)}, {lambert(Rgb(0.5f))});
+    const Baked baked = constant_lightmap();
     Renderer renderer(scene, &baked);
     renderer.set_lighting({{}, {Image(1, 1)}, {.clear = 1.0f}});
     FrameSettings frame = frame_of(from_above(1.0f), 8, 8, Layer::Indirect);
@@ -292,6 +304,35 @@ TEST_F(RendererTest, a_constant_lightmap_is_shown_exactly_gl) {
     frame.show = Layer::Lightmap;
     EXPECT_TRUE(pass(renderer.draw(frame), "relight").ran);
     EXPECT_LT(relative(renderer.read_radiance().at(3, 3).g, 2048.0), 1e-5);
+}
+
+// All pixels of the normal map lean alike, so what is shown is what the look-up says.
+TEST_F(RendererTest, normal_maps_respond_to_a_tilted_lightmap_gl) {
+    Primitive quad = ground(Vec3(0), 5, 5, 0);
+    quad.tangents.assign(4, Vec4(1, 0, 0, 1));
+    Scene scene = scene_of({std::move(quad)}, {lambert(Rgb(0.5f))});
+    scene.images.push_back({1, 1, {178, 104, 230, 255}});
+    scene.textures.push_back({.image = 0});
+    scene.materials[0].normal_texture.texture = 0;
+    Baked baked = constant_lightmap();
+    DayLightmap& map = *baked.lightmap;
+    map.tile_tilted = {1};
+    map.tilts.assign(4 * 16, 0);
+    std::fill_n(map.tilts.begin(), 16, 100);        // pattern 0 along u
+    std::fill_n(map.tilts.begin() + 48, 16, -200);  // pattern 1 along v
+    Renderer renderer(scene, &baked);
+    const LightScales scales{.clear = 1.0f};
+    renderer.set_lighting({{}, {Image(1, 1)}, scales});
+    const Vec3 sampled = glm::normalize(2.0f * Vec3(178, 104, 230) / 255.0f - 1.0f);
+    for (const double hour : {6.0, 12.0, 18.0}) {
+        FrameSettings frame = frame_of(from_above(1.0f), 8, 8, Layer::Irradiance);
+        frame.hour = hour;
+        renderer.draw(frame);
+        const Rgb expected = map.irradiance(Vec2(0.5f), sampled, map.tile_light(map.basis.weights(scales, hour)));
+        EXPECT_LT(relative(renderer.read_radiance().at(3, 3).g, expected.g), 2e-3) << hour;
+        EXPECT_GT(relative(expected.g, map.irradiance(Vec2(0.5f), map.tile_light(map.basis.weights(scales, hour))).g),
+                  0.05);
+    }
 }
 
 TEST_F(RendererTest, sky_is_the_environment_and_the_sun_is_its_disc_gl) {

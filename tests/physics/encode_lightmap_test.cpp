@@ -64,7 +64,7 @@ Given moving_light() {
 EncodedLightmap encoded(const Given& given, const LightmapSettings& settings = {}) {
     DayLightmap shape;
     shape.width = shape.height = kSide;
-    return encode_lightmap(shape, given.light, given.row_of_pixel, settings);
+    return encode_lightmap(shape, given.light, {}, given.row_of_pixel, settings);
 }
 
 Vec2 centre(int x, int y) {
@@ -143,6 +143,45 @@ TEST(EncodeLightmap, GapsAndBlackTilesTakeNoPatterns) {
     std::fill(given.rows.begin(), given.rows.end(), Rgb(0.0f));
     given.light.rows = given.rows;
     EXPECT_EQ(encoded(given).map.slots(), 0);
+}
+
+/// Tilts that follow other hours than the light itself, on the left half of the map.
+TEST(EncodeLightmap, TiltsAreAsRightAsTexels) {
+    const Given given = moving_light();
+    const std::size_t stride = given.light.stride();
+    std::vector<std::uint32_t> of_row;
+    std::vector<Rgb> rows;
+    for (std::size_t row = 0; row < given.row_of_pixel.size(); ++row) {
+        const bool tilted = row % kSide < kSide / 2;
+        of_row.push_back(tilted ? std::uint32_t(rows.size() / (2 * stride)) : ~0u);
+        for (std::size_t axis = 0; tilted && axis < 2; ++axis)
+            for (std::size_t i = 0; i < stride; ++i)
+                rows.push_back((axis ? -0.4f : 0.5f * float(i) / float(stride)) * given.rows[row * stride + i]);
+    }
+    DayLightmap shape;
+    shape.width = shape.height = kSide;
+    const DayLightmap map = encode_lightmap(shape, given.light, {of_row, rows}, given.row_of_pixel, {}).map;
+    EXPECT_EQ(map.tile_tilted, (std::vector<std::uint8_t>{1, 1, 0, 1, 1, 0, 1, 1, 0}));
+
+    for (const Moment& m : given.light.moments) {
+        if (m.scales.sun.x <= 5000.0f) continue;
+        const std::vector<Rgb> weights = given.light.light.weights(m.scales, m.hour),
+                               light = map.tile_light(map.basis.weights(m.scales, m.hour));
+        for (std::size_t row = 0; row < given.row_of_pixel.size(); row += 7) {
+            Rgb is(0.0f);
+            std::array<Rgb, 2> tilt{Rgb(0.0f), Rgb(0.0f)};
+            for (std::size_t r = 0; r < stride; ++r) {
+                is += given.rows[row * stride + r] * weights[r];
+                for (std::size_t axis = 0; of_row[row] != ~0u && axis < 2; ++axis)
+                    tilt[axis] += rows[(2 * of_row[row] + axis) * stride + r] * weights[r];
+            }
+            const Vec2 uv = centre(int(row % kSide), int(row / kSide));
+            for (const Vec3& lean : {Vec3(0.3f, 0.0f, 0.95f), Vec3(0.0f, -0.3f, 0.95f)}) {
+                const Rgb expected = is * (0.5f + 0.5f * lean.z) + lean.x * tilt[0] + lean.y * tilt[1];
+                EXPECT_LT(glm::distance(map.irradiance(uv, lean, light), expected), 0.06f * luminance(is)) << m.hour;
+            }
+        }
+    }
 }
 
 TEST(EncodeLightmap, SameTexelsForAnyNumberOfThreads) {

@@ -77,6 +77,15 @@ Baked small_bake() {
     return baked;
 }
 
+/// The same, and the only tile has tilts.
+Baked tilted_bake() {
+    Baked baked = small_bake();
+    baked.lightmap->tile_tilted = {1};
+    baked.lightmap->tilts = {1, 2,  3, 4, 5, 6, 7, -8,   // pattern 0, along u and v
+                             0, -9, 0, 0, 0, 0, 0, 12};  // pattern 1
+    return baked;
+}
+
 /// Two cells, one component, one keyframe.
 IrradianceVolume small_volume() {
     return volume_of(Vec3(1, 2, 3), {2, 1, 1}, [](int record, int i, int c) { return record + 10 * i + c; });
@@ -102,6 +111,8 @@ void expect_same(const Baked& a, const Baked& b) {
     EXPECT_EQ(a.lightmap->patterns, b.lightmap->patterns);
     EXPECT_EQ(a.lightmap->values, b.lightmap->values);
     EXPECT_EQ(a.lightmap->exponents, b.lightmap->exponents);
+    EXPECT_EQ(a.lightmap->tile_tilted, b.lightmap->tile_tilted);
+    EXPECT_EQ(a.lightmap->tilts, b.lightmap->tilts);
     EXPECT_EQ(a.lightmap->error, b.lightmap->error);
     EXPECT_EQ(a.lightmap->basis.suns, b.lightmap->basis.suns);
     EXPECT_EQ(a.lightmap->basis.skies, b.lightmap->basis.skies);
@@ -122,6 +133,11 @@ TEST_F(BakedFile, RoundTripsAndCountsItsBytes) {
     EXPECT_GT(read.plan[0].bytes, 0u);
     EXPECT_LT(read.plan[0].bytes, fs::file_size(path()));
     EXPECT_EQ(read.plan[1].bytes, 0u);
+}
+
+TEST_F(BakedFile, TiltsRoundTrip) {
+    write_baked(path(), tilted_bake());
+    expect_same(tilted_bake(), read_baked(path()));
 }
 
 TEST_F(BakedFile, WithoutLightmapRoundTrips) {
@@ -220,6 +236,9 @@ TEST_F(BakedFile, ImpossibleContentsAreRefused) {
     expect_refused([](Baked& b) { b.lightmap->exponents.pop_back(); });
     expect_refused([](Baked& b) { b.lightmap->scales[0] = INFINITY; });
     expect_refused([](Baked& b) { b.lightmap->scales.pop_back(); });
+    expect_refused([](Baked& b) { b = tilted_bake(), b.lightmap->tilts[5] = -2048; });
+    expect_refused([](Baked& b) { b = tilted_bake(), b.lightmap->tile_tilted.push_back(0); });
+    expect_refused([](Baked& b) { b = tilted_bake(), b.lightmap->tile_tilted[0] = 2; });
     expect_refused([](Baked& b) { b.lightmap->width = 0; });
     expect_refused([](Baked& b) { b.lightmap->corner_uvs[1].x = 1.5f; });
     expect_refused([](Baked& b) { b.lightmap->corner_uvs.pop_back(); });
@@ -296,6 +315,20 @@ TEST(DayLightmap, FetchesBilinearly) {
     EXPECT_EQ(map.irradiance({0.5f, 0.5f}, first), Rgb(2.5f, 5, 10));  // mean of the four
     EXPECT_EQ(map.irradiance({0.5f, 0.25f}, first), Rgb(1.5f, 3, 6));
     EXPECT_EQ(map.irradiance({0.0f, 0.0f}, first), Rgb(1, 2, 4));  // held at the border
+}
+
+TEST(DayLightmap, LeanedNormalsFollowTheTilts) {
+    const Baked baked = tilted_bake();
+    const DayLightmap& map = *baked.lightmap;
+    const std::vector<Rgb> light = map.tile_light(map.basis.weights({.sun = Rgb(1.0f)}, 12.0));
+    const Vec2 uv(0.75f, 0.25f);
+    const Rgb flat = map.irradiance(uv, light), first = light[0], second = light[1];
+    EXPECT_EQ(map.irradiance(uv, Vec3(0, 0, 1), light), flat);
+    const Rgb tilt_u = 4.0f * (2.0f * first - 9.0f * second), tilt_v = 4.0f * 6.0f * first;
+    for (const Vec3& lean : {Vec3(0.1f, 0.0f, 0.99f), Vec3(-0.2f, 0.1f, 0.9f)}) {
+        const Rgb expected = max(flat * (0.5f + 0.5f * lean.z) + lean.x * tilt_u + lean.y * tilt_v, Rgb(0.0f));
+        EXPECT_LT(glm::distance(map.irradiance(uv, lean, light), expected), 1e-4f * (1.0f + glm::length(expected)));
+    }
 }
 
 TEST(DayLightmap, IsNeverNegative) {

@@ -32,6 +32,8 @@ struct ByLit {
     void operator*=(float factor) { always *= factor, evening *= factor; }
 };
 
+inline constexpr std::uint32_t kSkyBit = 1u << 31, kNoLight = ~0u;
+
 struct GatherHits {
     int rays = 0;                     // per receiver
     std::vector<Receiver> receivers;  // the front of every texel in order, then backs
@@ -41,9 +43,12 @@ struct GatherHits {
         usable;                   // per receiver: bit k set when point k of its texel is not inside solid geometry
     std::vector<float> nearness;  // per receiver: harmonic mean distance of what it sees, metres
     std::vector<ByLit> emission;  // per receiver: lux straight from emissive surfaces
+    std::vector<std::array<ByLit, 2>>
+        emission_tilts;  // per receiver: how it changes as the normal leans (texel_tilts.h)
     bool buried(std::size_t receiver) const { return scale[receiver] == 0.0f; }
+    /// Where what a ray met is among receivers and, after them, sky bins. Not for kNoLight.
+    std::size_t source(std::uint32_t hit) const { return hit & kSkyBit ? receivers.size() + (hit & ~kSkyBit) : hit; }
 };
-inline constexpr std::uint32_t kSkyBit = 1u << 31, kNoLight = ~0u;
 
 struct GatherSettings {
     int rays = 96;     // per receiver
@@ -52,7 +57,7 @@ struct GatherSettings {
     std::uint64_t seed = 1;
 };
 
-/// Albedo (diffuse + specular) and place of everything the stages share.
+/// Mean albedo (shaders/shared/brdf.h) and place of everything the stages share.
 struct GatherScene {
     const RayScene& rays;
     const Atlas& atlas;

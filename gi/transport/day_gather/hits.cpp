@@ -5,8 +5,9 @@
 
 #include "engine/scene/texture.h"
 #include "gi/transport/day_gather/day_gather.h"
-#include "gi/transport/day_gather/sequence.h"
+#include "gi/transport/day_gather/receiver_rays.h"
 #include "gi/transport/day_gather/sight.h"
+#include "gi/transport/day_gather/texel_tilts.h"
 
 namespace daylit {
 namespace {
@@ -15,48 +16,47 @@ constexpr std::uint32_t kBackBit = 1u << 30;  // until the backs that are seen h
 // A surface nearer than this share of a texel's width covers the point: a box standing on the floor.
 constexpr float kCovered = 0.01f;
 constexpr float kLeastUsable = 0.25f;  // share of a receiver's rays below which it is filled from neighbours instead
-constexpr std::size_t kMaxPoints = 16;
 
-/// A texel's points with the normals of one side.
-struct Points {
-    std::size_t count = 0;
-    std::array<Vec3, kMaxPoints> position, normal;
+/// Light straight from emissive surfaces, lux, and how it changes as the normal leans, lux a radian.
+struct Emitted {
+    ByLit irradiance;
+    std::array<ByLit, 2> tilts;
+
+    /// weights   of light in the tilts against its share in the irradiance
+    void add(Lit lit, const Rgb& light, const Vec2& weights) {
+        irradiance.of(lit) += light;
+        for (std::size_t axis = 0; axis < 2; ++axis) tilts[axis].of(lit) += weights[int(axis)] * light;
+    }
+    void add(const Emitted& other) {
+        irradiance += other.irradiance;
+        for (std::size_t axis = 0; axis < 2; ++axis) tilts[axis] += other.tilts[axis];
+    }
+    void scale(float factor) {
+        irradiance *= factor;
+        for (ByLit& tilt : tilts) tilt *= factor;
+    }
 };
 
-Points points_of(const GatherScene& scene, const Receiver& receiver) {
-    Points points;
-    for (const TexelPoint& p : scene.texels.points_of(receiver.texel)) {
-        if (points.count == kMaxPoints) break;
-        const Vec3 n = geometric_normal(scene.rays.mesh(), p.triangle);
-        points.position[points.count] = position(scene.rays.mesh(), p);
-        points.normal[points.count++] = receiver.back ? -n : n;
-    }
-    return points;
-}
-
-/// One receiver's rays, before it is known which of its points lie inside solid geometry.
-class ReceiverRays {
+/// Traces one receiver's rays, before it is known which of its points lie inside solid geometry.
+class Tracer {
   public:
-    ReceiverRays(const GatherScene& scene, const GatherSettings& settings)
+    Tracer(const GatherScene& scene, const GatherSettings& settings)
         : scene_(scene), settings_(settings), sight_(scene) {}
 
     void trace(std::size_t r, GatherHits& out) const {
         const Receiver receiver = out.receivers[r];
-        const Points points = points_of(scene_, receiver);
-        Random random(settings_.seed, 2 * std::uint64_t(receiver.texel) + receiver.back, 0);
+        ReceiverRays rays(scene_, settings_, receiver);
+        const TiltFrame frame = tilt_frame(scene_, receiver.texel);
         std::uint32_t* hit = out.hit.data() + r * std::size_t(out.rays);
-        std::vector<ByLit> emitted(std::size_t(out.rays));
+        std::vector<Emitted> emitted(std::size_t(out.rays));
         std::vector<float> nearness(std::size_t(out.rays), 0.0f);
-        std::array<int, kMaxPoints> good{};
+        std::array<int, ReceiverRays::kMostPoints> good{};
         const float covered = kCovered * scene_.texels.width[receiver.texel];
-        const float turn_u = random.next(), turn_v = random.next();
         for (int j = 0; j < out.rays; ++j) {
-            const std::size_t k = point_of_ray(j, points.count);
-            const Vec2 u(fraction((float(j) + 0.5f) / float(out.rays) + turn_u),
-                         fraction(radical_inverse(std::uint32_t(j)) + turn_v));
-            const Vec3 direction = Frame(points.normal[k]).to_world(sample_cosine_hemisphere(u.x, u.y));
-            Ray ray{RayScene::offset_origin(points.position[k], points.normal[k], direction), direction};
-            const std::optional<Hit> met = sight_.past_glass(ray, random);
+            const std::size_t k = rays.point_of(j);
+            const Vec3 &normal = rays.normal_of(k), direction = rays.direction(j);
+            Ray ray{RayScene::offset_origin(rays.position_of(k), normal, direction), direction};
+            const std::optional<Hit> met = sight_.past_glass(ray, rays.random());
             hit[j] = kSkyBit | sky_bin(ray.direction);
             good[k] += !met;
             if (!met) continue;
@@ -67,47 +67,40 @@ class ReceiverRays {
             hit[j] = texel == kNoTexel ? kNoLight : texel | (back ? kBackBit : 0u);
             nearness[std::size_t(j)] = 1.0f / std::max(met->distance, 0.1f * scene_.texels.width[receiver.texel]);
             if (sight_.emits(*met))
-                emitted[std::size_t(j)].of(sight_.lit(*met)) =
-                    emitted_towards(ray, *met, glm::dot(direction, points.normal[k]));
+                emitted[std::size_t(j)].add(sight_.lit(*met), emitted_towards(ray, *met, glm::dot(direction, normal)),
+                                            tilt_weights(frame, normal, direction));
         }
-        reduce(r, points, good, emitted, nearness, random, out);
+        reduce(r, rays, frame, good, emitted, nearness, out);
     }
 
   private:
-    /// Spreads the points over the directions: each block of rays goes through all points, shifted from block to block.
-    static std::size_t point_of_ray(int j, std::size_t points) {
-        return (std::size_t(j) + 5 * (std::size_t(j) / points)) % points;
-    }
-
     /// Drops points that see nothing but backs or are covered, and sums what is left.
-    void reduce(std::size_t r, const Points& points, const std::array<int, kMaxPoints>& good,
-                const std::vector<ByLit>& emitted, const std::vector<float>& nearness, Random& random,
-                GatherHits& out) const {
+    void reduce(std::size_t r, ReceiverRays& rays, const TiltFrame& frame,
+                const std::array<int, ReceiverRays::kMostPoints>& good, const std::vector<Emitted>& emitted,
+                const std::vector<float>& nearness, GatherHits& out) const {
         std::uint32_t* hit = out.hit.data() + r * std::size_t(out.rays);
-        int kept = 0, near_count = 0;
+        int kept = 0;
         float near_sum = 0.0f;
-        ByLit emission;
+        Emitted emission;
         for (int j = 0; j < out.rays; ++j) {
-            const std::size_t k = point_of_ray(j, points.count);
-            if (good[k] == 0) {
+            if (good[rays.point_of(j)] == 0) {
                 hit[j] = kNoLight;
                 continue;
             }
             ++kept;
-            emission += emitted[std::size_t(j)];
+            emission.add(emitted[std::size_t(j)]);
             near_sum += nearness[std::size_t(j)];
-            ++near_count;
         }
-        for (std::size_t k = 0; k < points.count; ++k)
+        for (std::size_t k = 0; k < rays.points(); ++k)
             if (good[k] > 0) out.usable[r] |= std::uint16_t(1u << k);
         const bool buried = float(kept) < kLeastUsable * float(out.rays);
         if (buried) std::fill(hit, hit + out.rays, kNoLight);
         out.scale[r] = buried ? 0.0f : 1.0f / float(kept);
-        out.nearness[r] = near_sum > 0.0f ? float(near_count) / near_sum : 1e9f;
+        out.nearness[r] = near_sum > 0.0f ? float(kept) / near_sum : 1e9f;
         if (buried) return;
-        emission *= float(kPi) * out.scale[r];
-        emission += sampled_emission(r, points, random, out);
-        out.emission[r] = emission;
+        emission.scale(float(kPi) * out.scale[r]);
+        emission.add(sampled_emission(r, rays, frame, out));
+        out.emission[r] = emission.irradiance, out.emission_tilts[r] = emission.tilts;
     }
 
     // Both ways of meeting an emitter are weighed by the power heuristic (Veach 1997).
@@ -117,19 +110,20 @@ class ReceiverRays {
                sight_.emission(ray, hit);
     }
 
-    ByLit sampled_emission(std::size_t r, const Points& points, Random& random, const GatherHits& out) const {
-        ByLit sum;
+    Emitted sampled_emission(std::size_t r, ReceiverRays& rays, const TiltFrame& frame, const GatherHits& out) const {
+        Emitted sum;
         if (sight_.emitters().empty()) return sum;
-        std::array<std::size_t, kMaxPoints> usable;
+        std::array<std::size_t, ReceiverRays::kMostPoints> usable;
         std::size_t count = 0;
-        for (std::size_t k = 0; k < points.count; ++k)
+        for (std::size_t k = 0; k < rays.points(); ++k)
             if (out.usable[r] >> k & 1u) usable[count++] = k;
         for (int s = 0; s < kEmitterSamples; ++s) {
-            const std::size_t k = usable[std::min(std::size_t(random.next() * float(count)), count - 1)];
-            const LightSample light = sight_.emitters().sample(points.position[k], random);
-            sum.of(light.lit) += from_sample(points.position[k], points.normal[k], light);
+            const std::size_t k = usable[std::min(std::size_t(rays.random().next() * float(count)), count - 1)];
+            const LightSample light = sight_.emitters().sample(rays.position_of(k), rays.random());
+            sum.add(light.lit, from_sample(rays.position_of(k), rays.normal_of(k), light),
+                    tilt_weights(frame, rays.normal_of(k), light.direction));
         }
-        sum *= 1.0f / float(kEmitterSamples);
+        sum.scale(1.0f / float(kEmitterSamples));
         return sum;
     }
 
@@ -157,19 +151,24 @@ void add_receivers(const std::vector<Receiver>& more, GatherHits& hits) {
     hits.usable.resize(count, 0);
     hits.nearness.resize(count, 0.0f);
     hits.emission.resize(count);
+    hits.emission_tilts.resize(count);
 }
 
 constexpr std::size_t kBlock = 8192;  // receivers that are kept together
 
 /// What is traced of the receivers [first, last), as bytes.
 template <class Byte, class Hits>
-std::array<std::span<Byte>, 5> block_of(Hits& hits, std::size_t first, std::size_t last) {
+std::array<std::span<Byte>, 6> block_of(Hits& hits, std::size_t first, std::size_t last) {
     const auto bytes = [&](auto& values, std::size_t each) {
         const auto part = std::span(values).subspan(first * each, (last - first) * each);
         return std::span<Byte>(reinterpret_cast<Byte*>(part.data()), part.size_bytes());
     };
-    return {bytes(hits.hit, std::size_t(hits.rays)), bytes(hits.scale, 1), bytes(hits.usable, 1),
-            bytes(hits.nearness, 1), bytes(hits.emission, 1)};
+    return {bytes(hits.hit, std::size_t(hits.rays)),
+            bytes(hits.scale, 1),
+            bytes(hits.usable, 1),
+            bytes(hits.nearness, 1),
+            bytes(hits.emission, 1),
+            bytes(hits.emission_tilts, 1)};
 }
 
 /// Charts whose backs are met, from receivers `first` on, by more rays than chance cracks let through.
@@ -214,7 +213,7 @@ GatherScene gather_scene(const RayScene& rays, const Atlas& atlas, const Texels&
             const Rgba color = mesh.colors[c[0]] * w.x + mesh.colors[c[1]] * w.y + mesh.colors[c[2]] * w.z;
             const glsl::Brdf brdf =
                 surface_brdf(rays.scene(), rays.scene().materials[mesh.materials[p.triangle]], uvs, color);
-            sum += glm::clamp(brdf.diffuse + brdf.specular, Rgb(0.0f), Rgb(1.0f));
+            sum += glm::clamp(glsl::mean_albedo(brdf), Rgb(0.0f), Rgb(1.0f));
         }
         scene.albedo[i] = sum / float(points.size());
     });
@@ -223,7 +222,7 @@ GatherScene gather_scene(const RayScene& rays, const Atlas& atlas, const Texels&
 
 GatherHits trace_hits(const GatherScene& scene, const GatherSettings& settings, Checkpoint& checkpoint,
                       const StageProgress& progress) {
-    const ReceiverRays receiver_rays(scene, settings);
+    const Tracer tracer(scene, settings);
     GatherHits hits;
     hits.rays = settings.rays;
     std::vector<Receiver> fresh;
@@ -240,7 +239,7 @@ GatherHits trace_hits(const GatherScene& scene, const GatherSettings& settings, 
             const auto share = [&](std::size_t r) { return double(r - first) / double(fresh.size()); };
             if (checkpoint.load(at, block_of<std::byte>(hits, at, last))) continue;
             for_each_parallel(last - at, pass.part(share(at), share(last)),
-                              [&](std::size_t i) { receiver_rays.trace(at + i, hits); });
+                              [&](std::size_t i) { tracer.trace(at + i, hits); });
             checkpoint.store(at, block_of<const std::byte>(hits, at, last));
         }
         begin = end;

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 
+#include "gi/transport/day_gather/bfloat.h"
 #include "gi/transport/day_gather/day_gather.h"
 #include "gi/transport/day_gather/reduce.h"
 #include "gi/transport/day_gather/sun_rows.h"
@@ -19,16 +19,6 @@ namespace {
 constexpr std::size_t kSampleRows = 3072, kCheckRows = 1024;
 constexpr std::size_t kChunk = 512;  // receivers whose sums belong together, whatever the threads
 constexpr std::size_t kAhead = 6;    // rows fetched ahead of their use
-
-/// The upper half of a float, rounded: rows at half the bytes, with a float's range. Rounding, 0.2 % at most, averages
-/// out over a receiver's rays.
-std::uint16_t to_bfloat(float value) {
-    const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
-    return std::uint16_t((bits + 0x7FFFu + (bits >> 16 & 1u)) >> 16);
-}
-float from_bfloat(std::uint16_t value) {
-    return std::bit_cast<float>(std::uint32_t(value) << 16);
-}
 
 /// What shines straight on receivers, before it is known which components are worth keeping.
 struct Direct {
@@ -59,7 +49,6 @@ class Solver {
   private:
     std::size_t width() const { return 3 * solution_.basis.components; }
     const Rgb& albedo(std::size_t receiver) const { return scene_.albedo[hits_.receivers[receiver].texel]; }
-    std::size_t source(std::uint32_t hit) const { return hit & kSkyBit ? receivers_ + (hit & ~kSkyBit) : hit; }
     std::span<const std::uint32_t> hits_of(std::size_t receiver) const {
         return {hits_.hit.data() + receiver * std::size_t(hits_.rays), std::size_t(hits_.rays)};
     }
@@ -182,7 +171,8 @@ class Solver {
             row[i] = albedo(r) * sun[i];
             if (!direct_.suns.empty()) row[i] += albedo(r) * project_[i] * direct_.suns[r];
         }
-        const std::size_t evening = basis.component_of(StillPart::Evening), lamps = basis.component_of(StillPart::Lamps);
+        const std::size_t evening = basis.component_of(StillPart::Evening),
+                          lamps = basis.component_of(StillPart::Lamps);
         const ByLit& emission = hits_.emission[r];
         row[evening] = albedo(r) * (lamps_[r].evening + emission.evening);
         row[lamps] = albedo(r) * (lamps_[r].always + emission.always);
@@ -256,7 +246,7 @@ class Solver {
                 for (std::size_t line = 0; line < w; line += 32) __builtin_prefetch(ahead + line);
             }
             if (hits[j] == kNoLight || (!sky && hits[j] & kSkyBit)) continue;
-            const std::uint16_t* row = current_.data() + source(hits[j]) * w;
+            const std::uint16_t* row = current_.data() + hits_.source(hits[j]) * w;
             for (std::size_t i = 0; i < w; ++i) sum[i] += from_bfloat(row[i]);
         }
         for (std::size_t i = 0; i < w; ++i) sum[i] *= hits_.scale[r];
