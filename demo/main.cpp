@@ -39,6 +39,14 @@ int fail(int status, const char* message) {
     return status;
 }
 
+bool processor_fits() {
+#ifdef DAYLIT_NEEDS_AVX2
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+#else
+    return true;
+#endif
+}
+
 int run(int argc, char** argv) {
     CLI::App app("daylit lights game levels through a whole day.", "daylit");
     app.require_subcommand(1);
@@ -58,6 +66,9 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    if (!processor_fits())
+        return fail(kFailure,
+                    "this build needs a processor with AVX2; configure it with -DDAYLIT_BAKER_ARCH= for any other");
     try {
         return run(argc, argv);
     } catch (const daylit::UsageError& error) {
