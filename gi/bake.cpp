@@ -9,6 +9,7 @@
 #include "gi/encode/encode_lightmap.h"
 #include "gi/encode/encode_volume.h"
 #include "gi/surface/smooth.h"
+#include "gi/surface/surroundings.h"
 #include "gi/transport/day_gather/day_gather.h"
 #include "gi/transport/day_gather/texel_tilts.h"
 
@@ -96,7 +97,8 @@ std::uint64_t checkpoint_key(const Scene& scene, const WorldMesh& mesh, const Ba
 void bake_light(const Scene& scene, const WorldMesh& mesh, std::span<const PlacedLight> lamps, const LightModel& light,
                 const BakePlan& plan, const BakeSettings& settings, const Progress& progress, Baked& baked) {
     const RayScene rays(scene, mesh);
-    const Atlas atlas = make_atlas(mesh, plan.texel_budget);
+    const std::vector<Surroundings> around = look_around(rays, even_step(mesh, plan.texel_budget));
+    const Atlas atlas = make_atlas(mesh, plan.texel_budget, around);
     const Texels texels = make_texels(mesh, atlas);
     const GatherScene gather = gather_scene(rays, atlas, texels, lamps);
     const GatherSettings how{.rays = plan.rays, .bounces = settings.bounces, .seed = settings.seed};

@@ -11,7 +11,7 @@ namespace {
 
 // Texels: few for scenes of few surfaces (a box needs no more), up to the ceiling for levels. At preview (error 0.10)
 // the ceiling keeps two cores busy for about a minute.
-constexpr double kFewestTexels = 24000, kTexelsPerTriangle = 8, kPreviewTexels = 300000;
+constexpr double kFewestTexels = 24000, kTexelsPerTriangle = 8, kPreviewTexels = 280000;
 // Rays a texel at preview; noise falls with their root, and filtering over neighbours takes a good part of the rest.
 constexpr double kPreviewRays = 96, kPreviewError = 0.10;
 constexpr int kFewestRays = 32, kMostRays = 1024;

@@ -22,7 +22,15 @@ constexpr int kMaxSide = 16384, kMaxChartSide = 2048;
                 "the static surfaces need more than 16384 x 16384 texels; bake with a coarser "
                 "--quality or split the scene");
 }
-constexpr float kWideArea = 100.0f;  // square metres: larger charts get coarser, with the fourth root of their area
+// Light varies along a surface the faster the nearer the surroundings are: its relative gradient is bounded by the mean
+// inverse distance of what is seen (Ward and Heckbert 1992), and along an axis it goes with how fast that changes.
+// Steps go with the fourth root of that rate. Least error relative to local brightness would ask for the square root,
+// but that starves open ground, where most light is and whose shadows the mean distance does not know.
+constexpr float kPower = 0.25f;
+constexpr float kWidestRange = 4.0f;  // of steps, to either side of the mean
+constexpr float kLongest = 8.0f;      // a texel, times its width
+constexpr float kHiddenStep = 16.0f;  // of charts where nobody can look, times the mean
+constexpr float kWideArea = 100.0f;   // square metres: larger charts get coarser, with the eighth root of their area
 // Fetches keep this far, in texels, inside the outermost texel centres: more than the 1/256 of a GPU's fixed-point
 // filter, so no neighbour in the atlas is touched.
 constexpr float kInset = 1.0f / 128.0f;
@@ -31,38 +39,86 @@ int texels_along(float size, float step) {
     return std::clamp(1 + int(std::min(size / step + 0.5f, 1e6f)), 1, kMaxChartSide);
 }
 
-float wide_factor(const Vec2& size) {
-    return std::max(1.0f, std::pow(size.x * size.y / kWideArea, 0.25f));
+/// A chart and how large its texels are beside those of the others.
+struct Share {
+    Chart chart;
+    Vec2 factor = Vec2(1.0f);  // of the step, along axis_u and axis_v
+    int nx(float step) const { return texels_along(chart.size.x, step * factor.x); }
+    int ny(float step) const { return texels_along(chart.size.y, step * factor.y); }
+};
+
+/// Sums over the area of triangles that are not hidden.
+struct AroundSum {
+    double area = 0.0, nearness = 0.0;
+    glm::dmat3 change = glm::dmat3(0.0);
+    void add(const Facet& facet, const Surroundings& around) {
+        if (around.hidden) return;
+        area += facet.area;
+        nearness += double(facet.area) * around.nearness;
+        change += double(facet.area) * glm::dmat3(around.change);
+    }
+    /// How fast light may vary along an axis, per metre.
+    float rate(const Vec3& axis) const {
+        if (nearness == 0.0) return 0.0f;
+        const double along = glm::dot(glm::dvec3(axis), change * glm::dvec3(axis));
+        return float(nearness / area + along / nearness);
+    }
+};
+
+Vec2 step_factor(const Chart& chart, const AroundSum& own, float mean_rate) {
+    if (own.area == 0.0) return Vec2(kHiddenStep);
+    if (mean_rate == 0.0f) return Vec2(1.0f);
+    constexpr float kLeast = 1e-6f;
+    const float u = std::max(own.rate(chart.axis_u) / mean_rate, kLeast);
+    const float v = std::max(own.rate(chart.axis_v) / mean_rate, kLeast);
+    const float size = std::clamp(std::pow(u * v, -0.5f * kPower), 1.0f / kWidestRange, kWidestRange);
+    const float shape = std::sqrt(std::clamp(v / u, 1.0f / kLongest, kLongest));
+    return size * Vec2(shape, 1.0f / shape);
 }
 
-std::size_t texels_at(const std::vector<Chart>& charts, float step) {
-    std::size_t sum = 0;
-    for (const Chart& c : charts) {
-        const float own = step * wide_factor(c.size);
-        sum += std::size_t(texels_along(c.size.x, own)) * std::size_t(texels_along(c.size.y, own));
+std::vector<Share> share_out(const WorldMesh& mesh, std::vector<Chart>&& charts, std::span<const Surroundings> around) {
+    const std::vector<Facet> facet = facets(mesh);
+    AroundSum all;
+    for (std::size_t t = 0; t < around.size(); ++t) all.add(facet[t], around[t]);
+    const float mean_rate = all.area > 0.0 ? float(all.nearness / all.area) : 0.0f;
+    std::vector<Share> shares;
+    for (Chart& chart : charts) {
+        Vec2 factor(std::max(1.0f, std::pow(chart.size.x * chart.size.y / kWideArea, 0.125f)));
+        if (!around.empty()) {
+            AroundSum own;
+            for (std::uint32_t t : chart.triangles) own.add(facet[t], around[t]);
+            factor *= step_factor(chart, own, mean_rate);
+        }
+        shares.push_back({std::move(chart), factor});
     }
+    return shares;
+}
+
+std::size_t texels_at(const std::vector<Share>& shares, float step) {
+    std::size_t sum = 0;
+    for (const Share& s : shares) sum += std::size_t(s.nx(step)) * std::size_t(s.ny(step));
     return sum;
 }
 
 /// The smallest step, within a thousandth, whose texels fit the budget.
-float choose_step(const std::vector<Chart>& charts, std::size_t budget) {
+float choose_step(const std::vector<Share>& shares, std::size_t budget) {
     float low = 0.0f, high = 0.0f;
-    for (const Chart& c : charts) high = std::max({high, c.size.x, c.size.y});
+    for (const Share& s : shares) high = std::max({high, s.chart.size.x / s.factor.x, s.chart.size.y / s.factor.y});
     high = std::max(high, 1e-6f);
     low = 1e-5f * high;
     while (high > 1.001f * low) {
         const float middle = std::sqrt(low * high);
-        (texels_at(charts, middle) <= budget ? high : low) = middle;
+        (texels_at(shares, middle) <= budget ? high : low) = middle;
     }
     return high;
 }
 
-PlacedChart cut(Chart&& chart, float step) {
+PlacedChart cut(Share&& share, float step) {
     PlacedChart placed;
-    const float own = step * wide_factor(chart.size);
-    placed.nx = texels_along(chart.size.x, own), placed.ny = texels_along(chart.size.y, own);
-    placed.step = chart.size / Vec2(float(std::max(placed.nx - 1, 1)), float(std::max(placed.ny - 1, 1)));
-    placed.chart = std::move(chart);
+    placed.nx = share.nx(step), placed.ny = share.ny(step);
+    const Vec2 steps(float(std::max(placed.nx - 1, 1)), float(std::max(placed.ny - 1, 1)));
+    placed.step = share.chart.size / steps;
+    placed.chart = std::move(share.chart);
     return placed;
 }
 
@@ -141,19 +197,22 @@ int PlacedChart::nearest_y(const Vec2& plane) const {
     return int(grid(plane).y + 0.5f);
 }
 
-Atlas make_atlas(const WorldMesh& mesh, std::size_t texel_budget) {
-    if (texel_budget > std::size_t(kMaxSide) * kMaxSide) refuse_size();
+float even_step(const WorldMesh& mesh, std::size_t texel_budget) {
     double area = 0.0;
     for (const Facet& f : facets(mesh)) area += f.area;
+    return float(std::sqrt(area / double(std::max<std::size_t>(texel_budget, 1))));
+}
+
+Atlas make_atlas(const WorldMesh& mesh, std::size_t texel_budget, std::span<const Surroundings> around) {
+    if (texel_budget > std::size_t(kMaxSide) * kMaxSide) refuse_size();
     const Bounds box = bounds(mesh);
-    // Half a texel's width, could all surface be cut evenly; never so fine that a long sliver takes for ever.
+    // Half a texel's width; never so fine that a long sliver takes for ever.
     const float extent = box.empty() ? 1.0f : glm::length(box.max - box.min);
-    const float grain = std::max(0.5f * float(std::sqrt(area / double(std::max<std::size_t>(texel_budget, 1)))),
-                                 std::max(extent / 8192.0f, 1e-9f));
+    const float grain = std::max(0.5f * even_step(mesh, texel_budget), std::max(extent / 8192.0f, 1e-9f));
     Atlas atlas;
-    std::vector<Chart> charts = grow_charts(mesh, grain);
-    const float step = choose_step(charts, texel_budget);
-    for (Chart& chart : charts) atlas.charts.push_back(cut(std::move(chart), step));
+    std::vector<Share> shares = share_out(mesh, grow_charts(mesh, grain, around), around);
+    const float step = choose_step(shares, texel_budget);
+    for (Share& share : shares) atlas.charts.push_back(cut(std::move(share), step));
     place(atlas);
     write_corner_uvs(mesh, atlas);
     return atlas;

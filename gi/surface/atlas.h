@@ -34,8 +34,12 @@ struct Atlas {
 };
 inline constexpr std::uint32_t kNoChart = ~0u;
 
-/// Texels as small as the budget allows, larger on wide open charts (a courtyard's light varies slowly).
-/// throws Error when the charts do not fit into 16384 x 16384 texels.
-Atlas make_atlas(const WorldMesh& mesh, std::size_t texel_budget);
+/// Metres between texels, could all surface be cut evenly.
+float even_step(const WorldMesh& mesh, std::size_t texel_budget);
+
+/// Texels as small as the budget allows: finer where the surroundings are near, since light varies over a share of
+/// their distance; coarse where nothing is near, and coarsest where nobody can look. around   per triangle; empty: all
+/// alike throws Error when the charts do not fit into 16384 x 16384 texels.
+Atlas make_atlas(const WorldMesh& mesh, std::size_t texel_budget, std::span<const Surroundings> around = {});
 
 }  // namespace daylit

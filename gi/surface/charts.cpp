@@ -18,6 +18,7 @@ namespace {
 constexpr std::uint32_t kNone = ~0u;
 constexpr float kMinCosine = 0.8f;  // of a triangle's normal with the seed's: stretch by projection stays below 1.25
 constexpr std::size_t kTriedEdges = 48;  // directions tried when a chart is turned into its rectangle
+constexpr float kMostDifference = 4.0f;  // of nearness in a chart from its seed's, as a factor
 
 /// Vertices at the same place are one vertex, whatever their normals and texture coordinates.
 std::vector<std::uint32_t> weld(const std::vector<Vec3>& positions) {
@@ -39,7 +40,9 @@ std::vector<std::uint32_t> weld(const std::vector<Vec3>& positions) {
 std::vector<std::array<std::uint32_t, 3>> neighbours(const WorldMesh& mesh, const std::vector<Facet>& facets) {
     struct Edge {
         std::uint32_t a, b, triangle, side;
-        bool operator<(const Edge& o) const { return std::tie(a, b, triangle, side) < std::tie(o.a, o.b, o.triangle, o.side); }
+        bool operator<(const Edge& o) const {
+            return std::tie(a, b, triangle, side) < std::tie(o.a, o.b, o.triangle, o.side);
+        }
     };
     const std::vector<std::uint32_t> welded = weld(mesh.positions);
     std::vector<Edge> edges;
@@ -131,7 +134,8 @@ void fit_rectangle(const WorldMesh& mesh, Chart& chart) {
             edges.push_back({d, glm::dot(d, d)});
         }
     }
-    std::stable_sort(edges.begin() + 1, edges.end(), [](const Edge2& a, const Edge2& b) { return a.square > b.square; });
+    std::stable_sort(edges.begin() + 1, edges.end(),
+                     [](const Edge2& a, const Edge2& b) { return a.square > b.square; });
     edges.resize(std::min(edges.size(), kTriedEdges));
 
     float best_area = INFINITY;
@@ -155,6 +159,12 @@ void fit_rectangle(const WorldMesh& mesh, Chart& chart) {
     chart.size = best_size;
 }
 
+/// Whether one density of texels serves both.
+bool alike(const Surroundings& a, const Surroundings& b) {
+    const auto [less, more] = std::minmax(a.nearness, b.nearness);
+    return a.hidden == b.hidden && more <= kMostDifference * less;
+}
+
 }  // namespace
 
 std::vector<Facet> facets(const WorldMesh& mesh) {
@@ -169,7 +179,7 @@ std::vector<Facet> facets(const WorldMesh& mesh) {
     return result;
 }
 
-std::vector<Chart> grow_charts(const WorldMesh& mesh, float grain) {
+std::vector<Chart> grow_charts(const WorldMesh& mesh, float grain, std::span<const Surroundings> around) {
     const std::vector<Facet> facet = facets(mesh);
     const auto across = neighbours(mesh, facet);
     std::vector<std::uint32_t> seeds(facet.size());
@@ -187,7 +197,9 @@ std::vector<Chart> grow_charts(const WorldMesh& mesh, float grain) {
         chart.origin = corner(mesh, seed, 0);
         std::tie(chart.axis_u, chart.axis_v) = frame(facet[seed].normal);
         const auto try_add = [&](std::uint32_t t) {
-            if (t == kNone || chart_of[t] != kNone || glm::dot(facet[t].normal, facet[seed].normal) < kMinCosine) return;
+            if (t == kNone || chart_of[t] != kNone || glm::dot(facet[t].normal, facet[seed].normal) < kMinCosine)
+                return;
+            if (!around.empty() && !alike(around[t], around[seed])) return;
             std::array<Vec2, 3> p;
             for (std::size_t k = 0; k < 3; ++k) p[k] = chart.project(corner(mesh, t, k));
             if (!taken.take(id, p) && t != seed) return;

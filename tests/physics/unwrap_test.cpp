@@ -8,6 +8,7 @@
 #include "gi/surface/atlas.h"
 #include "gi/surface/raster.h"
 #include "gi/surface/texels.h"
+#include "tests/physics/scenes.h"
 
 namespace daylit {
 namespace {
@@ -154,6 +155,51 @@ TEST(UnwrapBox, ABoxTakesSixCharts) {
         EXPECT_NEAR(c.chart.size.y, 1.0f, 1e-5f);
         EXPECT_EQ(c.nx, 10);
     }
+}
+
+// Between plates at distance d, 1 / r = cos / d; its cosine-weighted mean is 2 / (3 d).
+TEST(LookAround, NearnessBetweenParallelPlates) {
+    TestScene made;
+    const std::uint32_t grey = made.add(lambert(Rgb(0.5f)));
+    made.quad(grey, Vec3(0, 0, 0), Vec3(0, 0, 400), Vec3(400, 0, 0));
+    made.quad(grey, Vec3(0, 2, 0), Vec3(400, 0, 0), Vec3(0, 0, 400));
+    for (const Surroundings& around : look_around(made.trace(), 2.0f)) {
+        EXPECT_FALSE(around.hidden);
+        EXPECT_NEAR(around.nearness, 2.0f / (3.0f * 2.0f), 0.01f);
+    }
+}
+
+TEST(LookAround, InsideASolidIsHiddenAndTheOpenIsNot) {
+    TestScene made;
+    const std::uint32_t grey = made.add(lambert(Rgb(0.5f)));
+    made.box(grey, Vec3(-1), Vec3(1));
+    made.quad(grey, Vec3(-0.5f, 0, -0.5f), Vec3(0, 0, 1), Vec3(1, 0, 0));
+    const std::vector<Surroundings> around = look_around(made.trace(), 0.1f);
+    for (std::size_t t = 0; t < around.size(); ++t) EXPECT_EQ(around[t].hidden, t >= 12) << t;
+}
+
+TEST(LookAround, TexelsAreFineAcrossAContactAndCoarseInTheOpenAndWhereNobodyCanLook) {
+    TestScene made;
+    const std::uint32_t grey = made.add(lambert(Rgb(0.5f)));
+    made.quad(grey, Vec3(-50, 0, -50), Vec3(0, 0, 100), Vec3(100, 0, 0));  // the ground
+    made.quad(grey, Vec3(-5, 0, 0), Vec3(10, 0, 0), Vec3(0, 2, 0));        // a wall upon it
+    made.quad(grey, Vec3(-5, 300, 0), Vec3(10, 0, 0), Vec3(0, 2, 0));      // and one far from everything
+    made.box(grey, Vec3(20, 100, 20), Vec3(24, 104, 24));
+    made.quad(grey, Vec3(20.5f, 102, 20.5f), Vec3(0, 0, 3), Vec3(3, 0, 0));
+    const std::vector<Surroundings> around = look_around(made.trace(), 0.5f);
+    const Atlas atlas = make_atlas(made.mesh, 20000, around);
+    const auto placed = [&](std::uint32_t triangle) { return atlas.charts[atlas.chart_of_triangle[triangle]]; };
+    const PlacedChart wall = placed(2), far = placed(4), hidden = placed(18);
+    const bool upright = std::abs(wall.chart.axis_v.y) > 0.5f;
+    const float across = upright ? wall.step.y : wall.step.x, along = upright ? wall.step.x : wall.step.y;
+    EXPECT_LT(1.5f * across, along);
+    EXPECT_LT(1.5f * across, std::min(far.step.x, far.step.y));
+    EXPECT_LT(wall.step.x * wall.step.y, 0.5f * far.step.x * far.step.y);
+    EXPECT_LE(hidden.nx * hidden.ny, 9);
+    std::size_t texels = 0;
+    for (const PlacedChart& c : atlas.charts) texels += std::size_t(c.nx) * std::size_t(c.ny);
+    EXPECT_LE(texels, 20000u);
+    EXPECT_GE(texels, 15000u);
 }
 
 }  // namespace
