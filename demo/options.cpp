@@ -195,6 +195,11 @@ void add_view_options(CLI::App& app, ViewOptions& options, bool with_hour) {
     app.add_option("--time", options.time, "seconds on the animations' clocks")->group(group)->capture_default_str();
 }
 
+void add_volume_mode(CLI::App& app, std::string& mode) {
+    app.add_option("--volume-mode", mode, "where the volume lights what moves: auto | object | vertex | pixel")
+        ->capture_default_str();
+}
+
 std::optional<double> parse_ev(const std::string& text) {
     if (text == "auto") return std::nullopt;
     return parse_number("--ev", text, -20, 40);

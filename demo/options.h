@@ -49,6 +49,9 @@ void add_camera_options(CLI::App& app, ViewOptions& options);
 /// All of it.
 void add_view_options(CLI::App& app, ViewOptions& options, bool with_hour = true);
 
+/// --volume-mode, for commands that draw.
+void add_volume_mode(CLI::App& app, std::string& mode);
+
 /// EV100, or none for "auto".
 std::optional<double> parse_ev(const std::string& text);
 /// NODE=x,y,z[,yaw in degrees]; the error lists the nodes there are.

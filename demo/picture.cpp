@@ -35,6 +35,7 @@ void add_picture_options(CLI::App& app, PictureOptions& options, bool with_hour)
     const std::string group = "Picture";
     app.add_option("--light", options.light, "baked light, .daylit")->group(group);
     app.add_option("--context", options.context, "egl | osmesa | glfw | any")->group(group)->capture_default_str();
+    add_volume_mode(app, options.volume_mode);
     app.add_option("--samples", options.samples_per_side, "samples along each side of a pixel, 1 to 8")
         ->group(group)
         ->capture_default_str();
@@ -48,6 +49,7 @@ struct Photographer::State {
     explicit State(const PictureOptions& o)
         : options(o),
           layer(parse_layer(o.view.show)),
+          volume_mode(parse_volume_mode(o.volume_mode)),
           ev(parse_ev(o.view.ev)),
           size(parse_size(o.view.size)),
           loaded(load(o.scene, o.light)),
@@ -58,6 +60,7 @@ struct Photographer::State {
 
     PictureOptions options;
     Layer layer;
+    VolumeMode volume_mode;
     std::optional<double> ev;
     Size size;
     LoadedScene loaded;
@@ -92,6 +95,8 @@ Picture Photographer::take(double hour, double seconds) {
     frame.height = s.size.height;
     frame.hour = hour;
     frame.show = s.layer;
+    frame.volume_mode = s.volume_mode;
+    frame.volume_view = s.layer == Layer::Volume;
     frame.ev = s.ev.value_or(0.0);  // metered below, over every pixel
     frame.samples_per_side = s.options.samples_per_side;
     frame.cull = !s.options.no_culling;

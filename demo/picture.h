@@ -15,6 +15,7 @@ struct PictureOptions {
     ViewOptions view;
     std::string light;            // .daylit file; empty: none
     std::string context = "any";  // egl, osmesa, glfw, any
+    std::string volume_mode = "auto";  // auto, object, vertex, pixel
     int samples_per_side = 2;
     int frames = 1;       // draws each picture this often; the last one is kept, the passes' times are medians
     bool no_culling = false;

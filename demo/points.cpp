@@ -10,6 +10,7 @@
 #include "demo/progress.h"
 #include "demo/sample_points.h"
 #include "demo/traced_scene.h"
+#include "engine/baked/volume_batch.h"
 #include "engine/base/error.h"
 
 namespace daylit {
@@ -57,7 +58,7 @@ std::vector<Rgb> by_volume(const PointsOptions& options, const TracedScene& scen
     std::vector<Vec3> places, normals;
     for (const SurfaceSample& p : points) places.push_back(p.position), normals.push_back(p.normal);
     std::vector<Rgb> result(points.size());
-    light.irradiance(places, normals, result);
+    VolumeBatch(light).irradiance(places, normals, result);
     return result;
 }
 

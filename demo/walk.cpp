@@ -14,7 +14,7 @@ namespace {
 struct WalkOptions {
     SceneOptions scene;
     ViewOptions view;
-    std::string light;
+    std::string light, volume_mode = "auto";
 };
 
 /// --light, else the baked file beside the scene, else none.
@@ -41,6 +41,8 @@ void walk(const WalkOptions& options) {
     WalkState& state = start.state;
     state.hour = parse_hour("--hour", options.view.hour);
     state.show = parse_layer(options.view.show);
+    state.volume_view = state.show == Layer::Volume;
+    state.volume_mode = parse_volume_mode(options.volume_mode);
     start.size = parse_size(options.view.size);
     start.seconds = options.view.time;
     if (const std::optional<double> ev = parse_ev(options.view.ev)) {
@@ -64,6 +66,7 @@ void add_walk(CLI::App& app) {
     add_scene_options(*command, options->scene);
     add_view_options(*command, options->view);
     command->add_option("--light", options->light, "baked light (default: FILE.daylit beside the scene, if there)");
+    add_volume_mode(*command, options->volume_mode);
     command->callback([options] { walk(*options); });
 }
 

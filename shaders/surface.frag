@@ -27,7 +27,9 @@ layout(location = 4) in vec4 v_color;
 #ifdef LIGHTMAP
 layout(location = 5) in vec2 v_lightmap_uv;
 #endif
-#ifdef VOLUME
+#ifdef VOLUME_PIXEL
+#include "shaders/baked_volume.glsl"
+#elif defined(VOLUME)
 layout(location = 6) in vec3 v_volume_front;
 layout(location = 7) in vec3 v_volume_back;
 #endif
@@ -160,8 +162,14 @@ void main() {
 #endif
 #endif
 #if defined(VOLUME) && (defined(SHOW_FINAL) || defined(SHOW_INDIRECT) || defined(SHOW_IRRADIANCE) || defined(SHOW_VOLUME))
+#ifdef VOLUME_PIXEL
+    VolumeSh around = volume_sh(volume_place(v_position));
+    indirect = volume_irradiance(around, normal, 1.0);
+    mirrored = volume_radiance(around, reflect(-view, normal), brdf.exponent);
+#else
     indirect = gl_FrontFacing ? v_volume_front : v_volume_back;
     mirrored = indirect / kSharedPi;
+#endif
 #endif
 #if defined(SHOW_IRRADIANCE) || defined(SHOW_LIGHTMAP) || defined(SHOW_VOLUME)
     out_light = vec4((direct.irradiance + indirect) * cover, 1.0);

@@ -25,9 +25,12 @@ layout(location = 4) out vec4 v_color;
 #ifdef LIGHTMAP
 layout(location = 5) out vec2 v_lightmap_uv;
 #endif
-#ifdef VOLUME
+#if defined(VOLUME_OBJECT) || defined(VOLUME_VERTEX)
 layout(location = 6) out vec3 v_volume_front;  // indirect irradiance on the two sides
 layout(location = 7) out vec3 v_volume_back;
+#endif
+#ifdef VOLUME_OBJECT
+uniform vec3 volume_object[kShCoefficients];  // radiance SH in the middle of the thing
 #endif
 
 invariant gl_Position;  // the depth pre-pass computes the same
@@ -48,8 +51,14 @@ void main() {
 #ifdef LIGHTMAP
     v_lightmap_uv = in_lightmap_uv;
 #endif
-#ifdef VOLUME
+#ifdef VOLUME_OBJECT
+    VolumeSh sh;
+    for (int i = 0; i < kShCoefficients; ++i) sh.c[i] = volume_object[i];
+    TwoSided indirect = two_sided(sh, normalize(in_normal));
+#elif defined(VOLUME_VERTEX)
     TwoSided indirect = volume_irradiance_at(in_position, normalize(in_normal));
+#endif
+#if defined(VOLUME_OBJECT) || defined(VOLUME_VERTEX)
     v_volume_front = indirect.front;
     v_volume_back = indirect.back;
 #endif

@@ -76,6 +76,15 @@ void draw_layers(WalkState& state, const Baked* baked) {
     ImGui::EndCombo();
 }
 
+void draw_volume(WalkState& state) {
+    ImGui::Checkbox("volume's samples and cells", &state.volume_view);
+    if (!ImGui::BeginCombo("what moves", name(state.volume_mode))) return;
+    for (const VolumeMode mode : {VolumeMode::Auto, VolumeMode::Object, VolumeMode::Vertex, VolumeMode::Pixel})
+        if (ImGui::Selectable(name(mode), mode == state.volume_mode)) state.volume_mode = mode;
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("where the volume's light is looked up");
+    ImGui::EndCombo();
+}
+
 void draw_exposure(WalkState& state) {
     ImGui::Checkbox("auto", &state.auto_exposure);
     ImGui::SameLine();
@@ -155,6 +164,7 @@ void draw_panel(WalkState& state, const PanelFacts& facts) {
         draw_time(state);
         ImGui::Separator();
         draw_layers(state, facts.baked);
+        if (facts.baked && facts.baked->volume) draw_volume(state);
         draw_exposure(state);
         draw_weather(state.light);
         if (!facts.scene->animations.empty()) ImGui::Checkbox("animations", &state.animate);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "demo/walk/gaze.h"
+#include "engine/baked/volume_mode.h"
 #include "engine/scene/layer.h"
 #include "engine/scene/sky.h"
 
@@ -19,6 +20,8 @@ struct WalkState {
 
     // What is shown
     Layer show = Layer::Final;
+    bool volume_view = false;  // the volume's samples and cells
+    VolumeMode volume_mode = VolumeMode::Auto;  // of what moves
     bool auto_exposure = true;
     float ev = 12.0f;           // EV100 of this frame: adapting, or as set by hand
     float compensation = 0.0f;  // stops brighter than metered, auto exposure only

@@ -11,6 +11,7 @@
 #include "demo/walk/sky_worker.h"
 #include "demo/walk/window.h"
 #include "engine/base/error.h"
+#include "engine/render/frame_plan.h"
 #include "engine/render/renderer.h"
 
 namespace daylit {
@@ -21,11 +22,6 @@ constexpr double kWaitForSky = 0.02;
 constexpr double kSkyMinutes = 1.0;          // the sky is worked out again when the hour has moved this far
 constexpr float kAdaptationSeconds = 0.35f;  // of the eye to another brightness
 constexpr float kSettledEv = 0.01f;
-
-/// Shows radiance, so that exposure applies.
-bool exposed(Layer layer) {
-    return layer == Layer::Final || layer == Layer::Direct || layer == Layer::Indirect;
-}
 
 /// koldinghus-0730-1.png: the first number that is free in the working folder.
 std::filesystem::path free_picture_path(const Scene& scene, double hour) {
@@ -194,10 +190,12 @@ class Walk {
         settings.height = height;
         settings.hour = state_.hour;
         settings.show = state_.show;
+        settings.volume_view = state_.volume_view;
+        settings.volume_mode = state_.volume_mode;
         settings.timings = state_.panel && state_.pass_times;
-        const bool adapting = state_.auto_exposure && exposed(state_.show);
+        const bool adapting = state_.auto_exposure && shows_radiance(state_.show);
         // The first frame, and layers that are not light, are exposed as the renderer finds best.
-        if (drawn_ && exposed(state_.show)) settings.ev = double(state_.ev - (adapting ? state_.compensation : 0.0f));
+        if (drawn_ && shows_radiance(state_.show)) settings.ev = double(state_.ev - (adapting ? state_.compensation : 0.0f));
         settings.meter = adapting;
         report_ = renderer_.draw(settings);
         if (adapting) adapt(drawn_ ? seconds : -1.0f);

@@ -10,6 +10,11 @@ constexpr std::size_t kNumbers = glsl::kVolumeNumbers;
 
 }  // namespace
 
+std::size_t IrradianceVolume::memory() const {
+    return tree.nodes.size() * sizeof(std::uint32_t) + tree.cells.size() * sizeof(glsl::VolumeCell) +
+           tree.cuts.size() * sizeof(glsl::VolumeCut) + tree.records() * kNumbers * sizeof(Vec4);
+}
+
 std::vector<Vec4> IrradianceVolume::records(std::span<const Rgb> weights) const {
     const std::vector<float> sides = record_sides(tree);
     std::vector<Vec4> result(kNumbers * tree.records(), Vec4(0.0f));
@@ -20,7 +25,8 @@ std::vector<Vec4> IrradianceVolume::records(std::span<const Rgb> weights) const 
             if (weight == 0.0f) continue;
             const std::uint16_t* value = values.data() + (r * kNumbers + i) * count;
             const float per_step = weight * change_scale[r * kNumbers + i] / 127.0f;
-            for (std::size_t s = 0; s < count; ++s) result[s * kNumbers + i].x += weight * glm::unpackHalf1x16(value[s]);
+            for (std::size_t s = 0; s < count; ++s)
+                result[s * kNumbers + i].x += weight * glm::unpackHalf1x16(value[s]);
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const std::int8_t* change = changes.data() + ((r * 3 + axis) * kNumbers + i) * count;
                 for (std::size_t s = 0; s < count; ++s)
@@ -43,12 +49,6 @@ glsl::VolumeSh VolumeLight::radiance(const Vec3& place) const {
 
 Rgb VolumeLight::irradiance(const Vec3& place, const Vec3& normal) const {
     return glsl::volume_irradiance(radiance(place), normal, 1.0f);
-}
-
-void VolumeLight::irradiance(std::span<const Vec3> places, std::span<const Vec3> normals, std::span<Rgb> out) const {
-    const glsl::VolumeArrays all = arrays();
-    for (std::size_t i = 0; i < places.size(); ++i)
-        out[i] = glsl::volume_irradiance(glsl::volume_sh(all, glsl::volume_place(all, places[i])), normals[i], 1.0f);
 }
 
 }  // namespace daylit

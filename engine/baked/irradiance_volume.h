@@ -23,6 +23,8 @@ struct IrradianceVolume {
     /// [component][coefficient * 3 + channel].
     std::vector<float> change_scale;
 
+    /// Bytes that a renderer keeps: cells, and the records of one moment.
+    std::size_t memory() const;
     /// All records of one moment, weights = basis.weights(...): glsl::kVolumeNumbers vec4 each.
     std::vector<Vec4> records(std::span<const Rgb> weights) const;
 };
@@ -35,13 +37,12 @@ class VolumeLight {
         : volume_(volume), records_(volume.records(weights)) {}
 
     /// *Indirect* irradiance in lux on a plane with this unit normal; beside the volume as at the nearest place in it,
-    /// never negative. Same as the shader's look-up.
+    /// never negative. Same as the shader's look-up. Of many places at once: VolumeBatch.
     Rgb irradiance(const Vec3& place, const Vec3& normal) const;
-    /// One place and normal each.
-    void irradiance(std::span<const Vec3> places, std::span<const Vec3> normals, std::span<Rgb> out) const;
     /// Radiance SH, cd/m^2.
     glsl::VolumeSh radiance(const Vec3& place) const;
 
+    const VolumeTree& tree() const { return volume_.tree; }
     glsl::VolumeArrays arrays() const;
     std::span<const Vec4> records() const { return records_; }
 

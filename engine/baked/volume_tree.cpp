@@ -53,6 +53,11 @@ Bounds VolumeTree::bounds() const {
     return box;
 }
 
+const glsl::VolumeCell& VolumeTree::cell_at(const Vec3& place) const {
+    const glsl::VolumeArrays arrays{grid(), nodes.data(), cells.data(), cuts.data(), nullptr};
+    return cells[glsl::volume_place(arrays, place).cell];
+}
+
 std::vector<float> record_sides(const VolumeTree& tree) {
     std::vector<float> sides(tree.samples, 0.0f);
     for (const glsl::VolumeCell& cell : tree.cells)

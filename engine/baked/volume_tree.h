@@ -39,6 +39,8 @@ struct VolumeTree {
     std::size_t records() const { return samples + hanging.size(); }
     glsl::VolumeGrid grid() const;
     Bounds bounds() const;
+    /// Where glsl::volume_place() leads; not for an empty tree.
+    const glsl::VolumeCell& cell_at(const Vec3& place) const;
 };
 
 /// Metres: the side of the largest cell that has each sampled record; what its change is stored over.

@@ -116,7 +116,8 @@ DrawMesh build_draw_mesh(const WorldMesh& mesh, const DayLightmap* lightmap, boo
         clusterer.split(begin, end, ranges);
         for (const auto& [from, to] : ranges) {
             std::sort(order.begin() + long(from), order.begin() + long(to));
-            Cluster cluster{{}, std::uint32_t(out.indices.size()), std::uint32_t(3 * (to - from))};
+            Cluster cluster{{}, std::uint32_t(out.indices.size()), std::uint32_t(3 * (to - from)),
+                            mesh.nodes[order[from]]};
             for (std::size_t i = from; i < to; ++i)
                 for (std::size_t corner = 3 * std::size_t(order[i]); corner < 3 * std::size_t(order[i]) + 3; ++corner) {
                     const std::uint32_t v = mesh.indices[corner];

@@ -23,6 +23,7 @@ static_assert(sizeof(VertexAttributes) == 40);
 struct Cluster {
     Bounds bounds;
     std::uint32_t first = 0, count = 0;  // in DrawMesh::indices
+    std::uint32_t node = 0;              // whose triangles, where the mesh was built by node
 };
 
 struct Batch {

@@ -21,6 +21,12 @@ std::vector<std::string> FrameDefines::with(std::vector<std::string> own, std::s
     add(part[part_number]);
     if (lights.suns) add(suns);
     if (lights.lamps != LampBits{}) add(lamps);
+    if (volume && part_number == 1) {
+        own.push_back("VOLUME");
+        own.push_back(lights.volume.mode == VolumeMode::Object  ? "VOLUME_OBJECT"
+                      : lights.volume.mode == VolumeMode::Pixel ? "VOLUME_PIXEL"
+                                                                : "VOLUME_VERTEX");
+    }
     return own;
 }
 
@@ -61,7 +67,7 @@ std::vector<std::pair<Lights, DrawList>> DrawScene::lists_by_lights(const Geomet
         if (list == lists.end()) list = lists.insert(list, {lights, DrawList()});
         list->second.add(first, indices);
     };
-    const bool known = cull && &geometry == &*parts[0];
+    const bool standing = parts[0] && &geometry == &*parts[0], known = cull && standing;
     for (std::uint32_t c = batch.first_cluster; c < batch.first_cluster + batch.cluster_count; ++c) {
         const Cluster& cluster = geometry.mesh().clusters[c];
         if (cull && !may_see(frustum, cluster.bounds)) {
@@ -71,6 +77,7 @@ std::vector<std::pair<Lights, DrawList>> DrawScene::lists_by_lights(const Geomet
         ++count.clusters_drawn;
         Lights lights;
         if (known && !lamp_bits.empty()) lights.lamps = lamp_bits[c];
+        if (!standing) lights.volume = volume_objects.use(c);
         const std::uint32_t reached = known && !sun_split.reached.empty() ? sun_split.reached[c] : cluster.count;
         add(lights, cluster.first, reached);
         lights.suns = false;
@@ -188,6 +195,8 @@ DrawCount DrawScene::draw_surfaces(const FrameDefines& frame_defines, const Frus
                     programs.get("surface.vert", "surface.frag", frame_defines.with(own, p, lights));
                 program.use();
                 set_lamp_bits(program, lights.lamps);
+                if (program.has("volume_object"))
+                    program.set("volume_object", std::span<const Vec3>(volume_objects.light(lights.volume.thing).c));
                 Geometry::draw(list);
             }
         }

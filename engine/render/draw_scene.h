@@ -7,6 +7,7 @@
 #include "engine/render/geometry.h"
 #include "engine/render/materials.h"
 #include "engine/render/programs.h"
+#include "engine/render/volume_objects.h"
 
 namespace daylit {
 
@@ -26,6 +27,7 @@ using LampBits = std::array<std::uint32_t, 4>;
 struct Lights {
     LampBits lamps = {~0u, ~0u, ~0u, ~0u};
     bool suns = true;
+    VolumeUse volume;  // of what moves
     bool operator==(const Lights&) const = default;
 };
 
@@ -34,6 +36,7 @@ struct Lights {
 struct FrameDefines {
     std::array<std::vector<std::string>, 2> part;  // what stands, what moves
     std::vector<std::string> suns, lamps;
+    bool volume = false;  // lights what moves
     /// A material's own, with all that these lights need.
     std::vector<std::string> with(std::vector<std::string> own, std::size_t part_number, const Lights& lights) const;
 };
@@ -64,6 +67,7 @@ struct DrawScene {
     std::uint64_t standing_version = 0;  // as version, of what stands alone
     std::vector<LampBits> lamp_bits;     // by cluster of what stands; empty: every lamp may light everything
     SunSplit sun_split;
+    VolumeObjects volume_objects;  // of what moves
     std::vector<Bounds> moved;  // where those were and are that moved from the version before to this one
 
     const Material& material(const Batch& batch) const { return scene.materials[batch.material]; }

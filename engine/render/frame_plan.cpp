@@ -15,8 +15,8 @@ PassPlan shadow_plan(bool shown, std::size_t sources, bool stale, const char* wh
 }  // namespace
 
 const char* name(PassKind pass) {
-    constexpr std::array<const char*, kPassCount> kNames = {"relight", "sun shadows", "lamp shadows", "depth", "surfaces",
-                                                            "sky",     "blended",     "resolve",      "meter"};
+    constexpr std::array<const char*, kPassCount> kNames = {"relight",     "sun shadows", "lamp shadows", "depth",   "surfaces",
+                                                            "volume view", "sky",         "blended",      "resolve", "meter"};
     return kNames[std::size_t(pass)];
 }
 
@@ -26,6 +26,7 @@ bool shows_baked_light(Layer l) {
            l == Layer::Volume;
 }
 bool shows_sky(Layer l) { return l == Layer::Final || l == Layer::Direct; }
+bool shows_radiance(Layer l) { return l == Layer::Final || l == Layer::Direct || l == Layer::Indirect; }
 bool shown_as_is(Layer l) { return l == Layer::Albedo || l == Layer::Normal; }
 
 FramePlan plan_frame(const FrameFacts& f) {
@@ -40,6 +41,10 @@ FramePlan plan_frame(const FrameFacts& f) {
     set(PassKind::Depth, when(f.depth_first && f.any_surface, "hidden pixels would cost their light",
                               "surfaces are cheap to shade"));
     set(PassKind::Surfaces, when(f.any_surface, "the scene has surfaces", "the scene has no opaque surface"));
+    set(PassKind::VolumeView, !f.volume                    ? PassPlan{false, "no irradiance volume"}
+                              : !shows_baked_light(f.show) ? PassPlan{false, "the layer shows no baked light"}
+                                                           : when(f.volume_view, "samples and cells are asked for",
+                                                                  "samples and cells are not asked for"));
     set(PassKind::Sky, !shows_sky(f.show)                     ? PassPlan{false, "the layer shows no sky"}
                        : when(!f.sky_black || f.suns > 0, "sky or sun may be seen", "a black sky without sun"));
     set(PassKind::Blended, when(f.any_through, "BLEND or glass materials", "no BLEND or glass material"));

@@ -9,14 +9,15 @@
 namespace daylit {
 
 /// In the order in which they run.
-enum class PassKind { Relight, SunShadows, LampShadows, Depth, Surfaces, Sky, Blended, Resolve, Meter };
-inline constexpr std::size_t kPassCount = 9;
+enum class PassKind { Relight, SunShadows, LampShadows, Depth, Surfaces, VolumeView, Sky, Blended, Resolve, Meter };
+inline constexpr std::size_t kPassCount = 10;
 const char* name(PassKind pass);
 
 /// What the plan depends on.
 struct FrameFacts {
     Layer show = Layer::Final;
     bool baked = false, baked_stale = false;
+    bool volume = false, volume_view = false;  // baked; its samples and cells are asked for
     std::size_t suns = 0, lamps = 0;
     bool sun_maps_stale = false, lamp_maps_stale = false;
     bool any_surface = false, any_through = false;
@@ -39,6 +40,8 @@ FramePlan plan_frame(const FrameFacts& facts);
 bool shows_straight_light(Layer layer);
 bool shows_baked_light(Layer layer);
 bool shows_sky(Layer layer);
+/// Radiance, cd/m^2, rather than irradiance or something else.
+bool shows_radiance(Layer layer);
 /// Albedo and normals are displayed as they are; everything else is exposed and tone-mapped.
 bool shown_as_is(Layer layer);
 

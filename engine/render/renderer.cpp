@@ -13,6 +13,7 @@
 #include "engine/render/lamp_shadow.h"
 #include "engine/render/sky_pass.h"
 #include "engine/render/sun_shadow.h"
+#include "engine/render/volume_view.h"
 
 namespace daylit {
 namespace {
@@ -94,6 +95,7 @@ struct Renderer::State {
     DrawScene draw;
     std::optional<BakedLight> baked_light;    // of what stands
     std::optional<BakedVolume> baked_volume;  // of what moves
+    std::optional<VolumeView> volume_view;    // made when first asked for
     SunShadow sun_shadow;
     LampShadow lamp_shadow;
     SkyPass sky;
@@ -234,6 +236,7 @@ void Renderer::set_pose(const Pose& pose) {
         s.draw.version += standing ? 2 : s.draw.moved.empty() ? 0 : 1;
         if (standing) s.draw.standing_version = s.draw.version;
     }
+    if (s.draw.parts[1]) s.draw.volume_objects.set_mesh(s.draw.parts[1]->mesh());
     s.find_bounds();
 }
 
@@ -253,6 +256,8 @@ FrameFacts Renderer::State::facts(const FrameSettings& frame) {
     f.baked = baked_light || baked_volume;
     f.baked_stale = (baked_light && baked_light->stale(lighting.scales, frame.hour)) ||
                     (baked_volume && baked_volume->stale(lighting.scales, frame.hour));
+    f.volume = baked_volume.has_value();
+    f.volume_view = frame.volume_view;
     f.suns = lighting.suns.size();
     f.any_surface = draw.parts[0] || draw.parts[1];
     if (shows_straight_light(frame.show)) {
@@ -298,7 +303,7 @@ FrameDefines Renderer::State::frame_defines(Layer show) const {
         defines.part[0].push_back("LIGHTMAP");
         if (baked_light->tilted()) defines.part[0].push_back("TILTED");
     }
-    if (baked_volume && shows_baked_light(show)) defines.part[1].push_back("VOLUME");
+    defines.volume = baked_volume && shows_baked_light(show);
     return defines;
 }
 
@@ -330,6 +335,8 @@ FrameReport Renderer::draw(const FrameSettings& frame) {
     }
     if (s.baked_light) s.baked_light->bind();
     if (s.baked_volume) s.baked_volume->bind();
+    if (s.baked_volume && shows_baked_light(frame.show))
+        s.draw.volume_objects.set_light(*s.baked_volume->light(), frame.volume_mode);
     glNamedBufferSubData(s.frame_buffer.get(), 0, sizeof block, &block);
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, s.frame_buffer.get());
 
@@ -348,6 +355,10 @@ FrameReport Renderer::draw(const FrameSettings& frame) {
         return count;
     });
     glBindVertexArray(s.no_attributes.get());
+    passes.run(PassKind::VolumeView, [&] {
+        if (!s.volume_view) s.volume_view.emplace(s.baked->volume->tree);
+        return s.volume_view->draw(s.draw.programs, shows_radiance(frame.show));
+    });
     passes.run(PassKind::Sky, [&] { return s.sky.draw(s.draw.programs, s.lighting.suns.size()); });
     passes.run(PassKind::Blended, [&] { return s.blend.draw(s.draw, frame.view, s.frame_defines(frame.show)); });
     glBindVertexArray(s.no_attributes.get());

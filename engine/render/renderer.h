@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/baked/baked_file.h"
+#include "engine/baked/volume_mode.h"
 #include "engine/scene/layer.h"
 #include "engine/scene/pose.h"
 #include "engine/scene/scene.h"
@@ -18,6 +19,8 @@ struct FrameSettings {
     int width = 1280, height = 720;
     double hour = 12.0;  // for the baked light's weights
     Layer show = Layer::Final;
+    VolumeMode volume_mode = VolumeMode::Auto;  // for what moves; blended surfaces are lit per vertex in any case
+    bool volume_view = false;  // in layers of baked light: the volume's samples as spheres, its cells as lines
     std::optional<double> ev;  // EV100; none: auto exposure
     bool meter = false;        // fill FrameReport::metered_ev though ev is given (the walk's eye adapts slowly to it)
     int samples_per_side = 1;  // of each pixel, box-filtered; 2 and more also fetch textures and shadows more finely

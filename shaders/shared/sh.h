@@ -36,5 +36,14 @@ SHARED_FN Sh9 sh_irradiance_weights(vec3 normal) {
     return w;
 }
 
+// The same for the mean radiance over a Phong lobe of this exponent about a unit direction: its bands are 1,
+// (n + 1) / (n + 2) and n / (n + 3).
+SHARED_FN Sh9 sh_lobe_weights(vec3 direction, float exponent) {
+    Sh9 w = sh_basis(direction);
+    for (int i = 1; i < 4; ++i) w.c[i] *= (exponent + 1.0f) / (exponent + 2.0f);
+    for (int i = 4; i < 9; ++i) w.c[i] *= exponent / (exponent + 3.0f);
+    return w;
+}
+
 SHARED_END
 #endif

@@ -105,5 +105,13 @@ SHARED_FN vec3 volume_irradiance(VolumeSh sh, vec3 normal, float odd) {
     return max(sum, vec3(0.0f));
 }
 
+// Mean radiance over a Phong lobe about this unit direction; never negative.
+SHARED_FN vec3 volume_radiance(VolumeSh sh, vec3 direction, float exponent) {
+    Sh9 lobe = sh_lobe_weights(direction, exponent);
+    vec3 sum = lobe.c[0] * sh.c[0];
+    for (int i = 1; i < 9; ++i) sum += lobe.c[i] * sh.c[i];
+    return max(sum, vec3(0.0f));
+}
+
 SHARED_END
 #endif

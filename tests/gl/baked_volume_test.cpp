@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/random.h"
+#include "engine/render/volume_view.h"
 #include "small_scenes.h"
 #include "tests/support/volume_builder.h"
 
@@ -76,6 +77,109 @@ TEST_F(BakedVolumeTest, moving_things_reflect_it_and_standing_ones_do_not_gl) {
     EXPECT_NEAR(plate(baked, place, up, false, Layer::Indirect, 9.0).g, expected, 0.01f * expected);
     EXPECT_EQ(plate(baked, place, up, false, Layer::Direct, 9.0), Rgb(0.0f));
     EXPECT_EQ(plate(baked, place, up, false, Layer::Indirect, 9.0, false), Rgb(0.0f));
+}
+
+constexpr int kPixels = 12;
+const Vec3 kMiddle(0.3f, 0.45f, 0.2f), kUp(0, 1, 0);
+
+/// Irradiance shown on a square that moves, facing up, all of it in the picture.
+Image square(const Baked& baked, float side, VolumeMode mode) {
+    Scene scene = scene_of({ground(kMiddle, side, side, 0)}, {lambert(Rgb(0.5f))});  // reaches over the picture's edges
+    scene.nodes[0].dynamic = true;
+    Renderer renderer(scene, &baked);
+    renderer.set_lighting({{}, {Image(1, 1)}});
+    FrameSettings frame = frame_of(from_above(side, kMiddle), kPixels, kPixels, Layer::Volume);
+    frame.volume_mode = mode;
+    renderer.draw(frame);
+    return renderer.read_radiance();
+}
+
+/// RMS over mean against the look-up of the CPU at every pixel.
+double error_of(const Image& image, const VolumeLight& light, float side) {
+    double wrong = 0.0, mean = 0.0;
+    for (int y = 0; y < kPixels; ++y)
+        for (int x = 0; x < kPixels; ++x) {
+            const Vec3 in((float(x) + 0.5f) / kPixels - 0.5f, 0.0f, (float(y) + 0.5f) / kPixels - 0.5f);
+            const float expected = light.irradiance(kMiddle + side * in, kUp).g;
+            wrong += std::pow(double(image.at(x, y).g - expected), 2.0), mean += double(expected);
+        }
+    return std::sqrt(wrong * kPixels * kPixels) / mean;
+}
+
+TEST_F(BakedVolumeTest, modes_look_up_where_they_say_gl) {
+    Baked baked;
+    baked.volume = uneven_volume();
+    const VolumeLight light = light_of(*baked.volume);
+    constexpr float kSide = 1.2f;
+    const double pixel = error_of(square(baked, kSide, VolumeMode::Pixel), light, kSide),
+                 vertex = error_of(square(baked, kSide, VolumeMode::Vertex), light, kSide),
+                 object = error_of(square(baked, kSide, VolumeMode::Object), light, kSide);
+    EXPECT_LT(pixel, 0.001);
+    EXPECT_GT(vertex, 0.05);  // four vertices, and cells of a metre
+    EXPECT_GT(object, 0.05);
+    const Image once = square(baked, kSide, VolumeMode::Object);
+    const float middle = light.irradiance(kMiddle, kUp).g;
+    for (const Rgb& p : once.pixels) EXPECT_NEAR(p.g, middle, 0.001f * middle);
+}
+
+TEST_F(BakedVolumeTest, auto_mode_goes_by_size_gl) {
+    Baked baked;
+    baked.volume = uneven_volume();
+    // Twice as long as the picture: a quarter of a cell, and a little more. Two triangles have no vertices in between.
+    EXPECT_EQ(square(baked, 0.120f, VolumeMode::Auto).pixels, square(baked, 0.120f, VolumeMode::Object).pixels);
+    EXPECT_EQ(square(baked, 0.130f, VolumeMode::Auto).pixels, square(baked, 0.130f, VolumeMode::Pixel).pixels);
+}
+
+/// The view of samples and cells around the volume's corner (0, 0, 0), seen from straight above over a standing floor.
+FrameReport look_at_samples(const Baked& baked, Layer layer, bool asked, Image& image) {
+    const Scene scene = scene_of({ground(Vec3(0, -1, 0), 5, 5, 0)}, {lambert(Rgb(0.5f))});
+    Renderer renderer(scene, &baked);
+    renderer.set_lighting({{}, {Image(1, 1)}});
+    FrameSettings frame = frame_of(from_above(2.2f, Vec3(0)), 221, 221, layer);
+    frame.volume_view = asked;
+    const FrameReport report = renderer.draw(frame);
+    image = renderer.read_radiance();
+    return report;
+}
+
+TEST_F(BakedVolumeTest, samples_are_spheres_with_their_light_and_cells_are_lines_gl) {
+    Baked baked;
+    baked.volume = volume_of(Vec3(-1, 0, -1), {2, 1, 2}, [](int record, int i, int channel) {
+        return i == 0 ? 100.0f + 10.0f * float(record) : i == 1 ? 20.0f : 5.0f * float(channel);
+    });
+    Image image;
+    EXPECT_TRUE(pass(look_at_samples(baked, Layer::Volume, true, image), "volume view").ran);
+    // Records are 3 x 2 x 3; those of the upper layer are seen, the middle one's number is 3 * 2 + 3 + 1. A pixel is a
+    // centimetre.
+    const Rgb top =
+        VolumeLight(*baked.volume, baked.volume->basis.weights({}, 12.0)).irradiance(Vec3(0, 1, 0), Vec3(0, 1, 0));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(image.at(110, 110)[c], top[c], 0.01f * top[c]) << c;
+    EXPECT_GT(image.at(113, 112).g, 100.0f);   // a sphere of 4 cm
+    EXPECT_EQ(image.at(118, 117), Rgb(0.0f));  // beside it the floor, which the volume does not light
+    const Rgb line = image.at(160, 110);       // half way to the next sample
+    const float mean = float(kPi) * 0.282095f * (200.0f + 0.5f * 10.0f);
+    EXPECT_NEAR(line.g, mean, 0.02f * mean);
+    Image radiance;
+    look_at_samples(baked, Layer::Final, true, radiance);
+    EXPECT_NEAR(radiance.at(110, 110).g, top.g / float(kPi), 0.01f * top.g);
+    EXPECT_FALSE(pass(look_at_samples(baked, Layer::Volume, false, image), "volume view").ran);
+    EXPECT_EQ(image.at(110, 110), Rgb(0.0f));
+    EXPECT_FALSE(pass(look_at_samples(baked, Layer::Direct, true, image), "volume view").ran);
+}
+
+TEST(VolumeView, samples_that_a_wall_parts_stand_aside) {
+    // Two cells, side by side along x, that share no record: as if a wall stood between them.
+    IrradianceVolume volume = volume_of(Vec3(0), {2, 1, 1}, [](int, int, int) { return 1.0f; });
+    VolumeTree& tree = volume.tree;
+    for (int corner = 0; corner < 8; corner += 2) {
+        glsl::VolumeCell& right = tree.cells[1];
+        (corner < 4 ? right.low[corner] : right.high[corner - 4]) = tree.samples++;
+    }
+    const std::vector<Vec4> spheres = sample_spheres(tree);
+    ASSERT_EQ(spheres.size(), 16u);
+    EXPECT_LT(spheres[1].x, 1.0f - 0.9f * spheres[1].w);
+    EXPECT_GT(spheres[12].x, 1.0f + 0.9f * spheres[12].w);
+    EXPECT_EQ(spheres[12].w, 0.04f);
 }
 
 }  // namespace

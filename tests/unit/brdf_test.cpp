@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
+#include "engine/base/units.h"
+#include "shaders/shared/sh.h"
+
 namespace daylit {
 namespace {
-
-constexpr double kPi = 3.14159265358979;
 
 /// (n + 2) / (2 pi) * integral over the hemisphere of cos(angle to the mirrored view)^n * cosine: midpoint rule over
 /// the lobe.
@@ -40,6 +43,26 @@ TEST(Brdf, PhongMeanAlbedoIsTheMeanOverViews) {
             sum += 2.0 * c * glsl::phong_directional_albedo(exponent, float(c)) / kSteps;
         }
         EXPECT_NEAR(glsl::phong_mean_albedo(exponent), sum, 1e-4) << exponent;
+    }
+}
+
+// The mean of each basis function over the lobe, about a direction where none of them is zero.
+TEST(Brdf, BandsOfAPhongLobeAreItsMeans) {
+    const Vec3 about = glm::normalize(Vec3(0.3f, 0.5f, 0.7f)), x = glm::normalize(glm::cross(about, Vec3(0, 1, 0))),
+               y = glm::cross(about, x);
+    for (const float exponent : {0.5f, 3.0f, 40.0f}) {
+        constexpr int kSteps = 300;
+        std::array<double, 9> mean{};
+        for (int i = 0; i < kSteps; ++i)
+            for (int j = 0; j < kSteps; ++j) {
+                const float z = std::pow((float(i) + 0.5f) / kSteps, 1.0f / (exponent + 1.0f)),
+                            s = std::sqrt(1.0f - z * z);
+                const float turn = 2.0f * float(kPi) * (float(j) + 0.5f) / kSteps;
+                const glsl::Sh9 basis = glsl::sh_basis(z * about + s * (std::cos(turn) * x + std::sin(turn) * y));
+                for (std::size_t k = 0; k < 9; ++k) mean[k] += basis.c[k] / (kSteps * kSteps);
+            }
+        const glsl::Sh9 weights = glsl::sh_lobe_weights(about, exponent);
+        for (std::size_t k = 0; k < 9; ++k) EXPECT_NEAR(weights.c[k], mean[k], 1e-3) << exponent << " " << k;
     }
 }
 
