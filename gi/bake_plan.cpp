@@ -13,7 +13,7 @@ namespace {
 // the ceiling keeps two cores busy for about a minute.
 constexpr double kFewestTexels = 24000, kTexelsPerTriangle = 8, kPreviewTexels = 280000;
 // Rays a texel at preview; noise falls with their root, and filtering over neighbours takes a good part of the rest.
-constexpr double kPreviewRays = 96, kPreviewError = 0.10;
+constexpr double kPreviewRays = 64, kPreviewError = 0.10;
 constexpr int kFewestRays = 32, kMostRays = 1024;
 // Samples of a volume look at the whole sphere and are averaged with few neighbours.
 constexpr int kRaysOfTexelsPerSample = 3;
