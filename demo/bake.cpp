@@ -23,6 +23,7 @@ struct BakeOptions {
     int bounces = 64, threads = 0;
     std::uint64_t seed = 1;
     bool resume = false, json = false;
+    VolumeSettings volume;
 };
 
 double error_of(const BakeOptions& options) {
@@ -67,6 +68,43 @@ void read_hours(const BakeOptions& options, BakeSettings& settings) {
     if (!(settings.every_hours >= 1.0 / 60.0)) throw Error("--every", "give a minute or more");
 }
 
+void add_volume_options(CLI::App& app, VolumeSettings& volume) {
+    const std::string group = "Irradiance volume: what follows from the error unless it is given";
+    const std::string levels = ", 0 (an eighth of the level's longest side) to 20";
+    app.add_option("--volume-min-level", volume.min_level,
+                   "cells are split until this level whatever light does" + levels)
+        ->group(group);
+    app.add_option("--volume-max-level", volume.max_level, "and never below this one (default: cells of 0.25 m)")
+        ->group(group);
+    app.add_option("--volume-geometry-level", volume.geometry_level,
+                   "cells with surfaces in them are split until this level")
+        ->group(group);
+    app.add_option("--volume-change", volume.change,
+                   "splits where light changes over the cell by more than this share of it")
+        ->group(group);
+    app.add_option("--volume-near", volume.harmonic_mean,
+                   "splits where the harmonic mean distance of what a corner sees is below this many sides")
+        ->group(group);
+    app.add_option("--volume-error", volume.error, "splits where light inside differs from the corners' by this share")
+        ->group(group);
+    app.add_option("--volume-cells", volume.most_cells, "the number of cells that ends refinement")->group(group);
+}
+
+void check(const VolumeSettings& volume) {
+    const auto check_level = [](const char* option, int level) {
+        if (level < 0 || level > glsl::kVolumeMostLevels) throw Error(option, "give 0 to 20");
+    };
+    check_level("--volume-min-level", volume.min_level);
+    check_level("--volume-geometry-level", volume.geometry_level);
+    if (volume.max_level != VolumeSettings{}.max_level) check_level("--volume-max-level", volume.max_level);
+    if (volume.max_level >= 0 && volume.max_level < volume.min_level)
+        throw Error("--volume-max-level", "is coarser than --volume-min-level");
+    if (!(volume.change > 0.0f)) throw Error("--volume-change", "give a share above 0");
+    if (!(volume.harmonic_mean >= 0.0f && volume.harmonic_mean <= 1e6f))
+        throw Error("--volume-near", "give 0 to 1000000");
+    if (!(volume.error >= 0.0f && volume.error <= 10.0f)) throw Error("--volume-error", "give a share of at most 10");
+}
+
 BakeSettings settings_from(const BakeOptions& options) {
     BakeSettings settings;
     settings.directional = directional_of(options);
@@ -76,6 +114,8 @@ BakeSettings settings_from(const BakeOptions& options) {
     if (options.bounces < 0 || options.bounces > 10000) throw Error("--bounces", "give 0 to 10000");
     settings.bounces = options.bounces;
     read_hours(options, settings);
+    check(options.volume);
+    settings.volume = options.volume;
     return settings;
 }
 
@@ -148,6 +188,7 @@ void add_bake(CLI::App& app) {
     command->add_flag("--resume", options->resume, "go on from an interrupted bake")->group(group);
     command->add_flag("--json", options->json, "what was baked, as `info --json`, and the seconds it took")
         ->group(group);
+    add_volume_options(*command, options->volume);
     command->callback([options] { run(*options); });
 }
 

@@ -67,7 +67,10 @@ std::string describe(const EncodedVolume& encoded, const BakePlan& plan) {
                        std::to_string(encoded.unmeasured) + " in walls), " + std::to_string(encoded.samples) +
                        " places sampled with " + std::to_string(plan.volume_settings.rays) + " rays each, " +
                        std::to_string(encoded.volume.basis.components) + " components";
+    text += ", " + std::to_string(encoded.volume.memory() >> 10) + " kB at run time";
     if (encoded.budget_spent) text += ", the number of cells ended the refinement";
+    for (const std::string& name : encoded.buried)
+        text += "; '" + name + "' rests inside of something solid and is lit as the nearest open place is";
     return text;
 }
 
@@ -75,6 +78,11 @@ std::string describe(const EncodedVolume& encoded, const BakePlan& plan) {
 void note(std::vector<PlanItem>& plan, const char* part, const std::string& why, double error) {
     for (PlanItem& item : plan)
         if (item.part == part) item.why += ": " + why, item.error = error;
+}
+
+void leave_out(std::vector<PlanItem>& plan, const char* part, const std::string& why) {
+    for (PlanItem& item : plan)
+        if (item.part == part) item.done = false, item.why += ": " + why;
 }
 
 /// Of all that decides what is traced.
@@ -133,6 +141,10 @@ void bake_light(const Scene& scene, const WorldMesh& mesh, std::span<const Place
         EncodedVolume encoded =
             encode_volume(scene, gather, hits, light_basis(day.basis), leaving, moments(day, light),
                           plan.volume_settings, {.dropped = 0.1 * settings.error}, {progress, 0.9, 1.0});
+        if (encoded.volume.tree.empty()) {
+            leave_out(baked.plan, "volume", "but no free space is reached by cameras, things that move or open air");
+            return;
+        }
         note(baked.plan, "volume", describe(encoded, plan), encoded.error);
         baked.volume = std::move(encoded.volume);
     }

@@ -24,13 +24,14 @@ std::vector<Vec4> IrradianceVolume::records(std::span<const Rgb> weights) const 
             const float weight = weights[r][glm::length_t(i % 3)];
             if (weight == 0.0f) continue;
             const std::uint16_t* value = values.data() + (r * kNumbers + i) * count;
-            const float per_step = weight * change_scale[r * kNumbers + i] / 127.0f;
+            const std::uint16_t* scale = change_scale.data() + r * count;
             for (std::size_t s = 0; s < count; ++s)
                 result[s * kNumbers + i].x += weight * glm::unpackHalf1x16(value[s]);
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const std::int8_t* change = changes.data() + ((r * 3 + axis) * kNumbers + i) * count;
                 for (std::size_t s = 0; s < count; ++s)
-                    result[s * kNumbers + i][glm::length_t(1 + axis)] += per_step / sides[s] * float(change[s]);
+                    result[s * kNumbers + i][glm::length_t(1 + axis)] +=
+                        weight * glm::unpackHalf1x16(scale[s]) / (127.0f * sides[s]) * float(change[s]);
             }
         }
     fill_hanging(tree, result);

@@ -20,8 +20,8 @@ struct IrradianceVolume {
     /// Its change along x, y and z over the side of the largest cell that shares the record, as a share of
     /// change_scale / 127: [component][axis][coefficient * 3 + channel][record].
     std::vector<std::int8_t> changes;
-    /// [component][coefficient * 3 + channel].
-    std::vector<float> change_scale;
+    /// Halves: [component][record], so that a dark room beside a bright one keeps its changes.
+    std::vector<std::uint16_t> change_scale;
 
     /// Bytes that a renderer keeps: cells, and the records of one moment.
     std::size_t memory() const;

@@ -1,5 +1,7 @@
 #include "engine/baked/volume_sections.h"
 
+#include <algorithm>
+
 #include "engine/baked/light_basis_bytes.h"
 
 namespace daylit {
@@ -59,6 +61,10 @@ std::size_t tree_bytes(const Counts& c) {
            c.hanging * sizeof(HangingCorner);
 }
 
+bool all_finite(const std::vector<std::uint16_t>& halves) {
+    return std::none_of(halves.begin(), halves.end(), [](std::uint16_t half) { return (half & 0x7C00u) == 0x7C00u; });
+}
+
 Bytes code_records(const IrradianceVolume& volume) {
     ByteWriter w;
     w.put_all(volume.change_scale), w.put_all(volume.changes), w.put_all(volume.values);
@@ -80,15 +86,13 @@ IrradianceVolume read_volume(const SectionFile& file) {
     IrradianceVolume volume;
     const Counts counts = decode_shape(file.open("VOLU"), volume);
     decode_tree(file.open("VOTR", tree_bytes(counts)), counts, volume.tree);
-    const std::size_t scales = kNumbers * std::size_t(volume.basis.components), values = scales * volume.tree.samples;
-    ByteReader r = file.open("VOSH", 4 * scales + 5 * values);
-    volume.change_scale = r.get_all<float>(scales);
-    for (const float scale : volume.change_scale)
-        if (!std::isfinite(scale)) r.fail("holds a scale that is not finite");
+    const std::size_t scales = std::size_t(volume.basis.components) * volume.tree.samples, values = kNumbers * scales;
+    ByteReader r = file.open("VOSH", 2 * scales + 5 * values);
+    volume.change_scale = r.get_all<std::uint16_t>(scales);
+    if (!all_finite(volume.change_scale)) r.fail("holds a scale that is not finite");
     volume.changes = r.get_all<std::int8_t>(3 * values);
     volume.values = r.get_all<std::uint16_t>(values);
-    for (const std::uint16_t half : volume.values)
-        if ((half & 0x7C00u) == 0x7C00u) r.fail("holds light that is not finite");
+    if (!all_finite(volume.values)) r.fail("holds light that is not finite");
     r.expect_end();
     return volume;
 }

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/packing.hpp>
+#include <map>
 
+#include "gi/encode/volume_budget.h"
 #include "gi/encode/volume_fit.h"
 #include "gi/surface/swept_boxes.h"
 #include "shaders/shared/sh.h"
@@ -18,8 +20,10 @@ constexpr int kSpaceCells = 128;  // along the scene's longest side, for finding
 constexpr int kPilots = 400;      // samples that the basis is chosen by
 constexpr std::size_t kJudgedMoments = 6;
 // Far from the end of halves (65504), and far above their smallest normal number (6e-5).
-constexpr float kLargestHalf = 16384.0f;
-constexpr float kCutShare = 0.02f;
+constexpr float kLargestHalf = 16384.0f, kFullHalf = 65504.0f;
+// Three bands of a single far light ring by 4 to 6 % of its brightness: less than a window would dim its bright side
+// by.
+constexpr float kCutShare = 0.05f;
 constexpr float kMostWindow = 4.0f;  // the largest lambda that is tried
 
 const std::array<Vec3, 6> kSides = {Vec3(1, 0, 0),  Vec3(-1, 0, 0), Vec3(0, 1, 0),
@@ -29,11 +33,26 @@ FreeSpace reachable_space(const Scene& scene, const RayScene& rays, const std::v
     FreeSpace space(rays, kSpaceCells);
     const Pose pose = pose_scene(scene);
     for (const Camera& camera : scene.cameras) space.start_at(Vec3(pose.world_from_node[std::size_t(camera.node)][3]));
-    for (const Bounds& region : regions)
-        if (!region.empty()) space.start_at(0.5f * (region.min + region.max));
+    for (const Bounds& region : regions) {
+        const Vec3 middle = 0.5f * (region.min + region.max);
+        if (!region.empty() && !space.buried(middle)) space.start_at(middle);  // a wall's inside is no place to be in
+    }
     space.start_under_the_sky();
     space.spread();
     return space;
+}
+
+/// Dynamic nodes that rest inside of something solid.
+std::vector<std::string> buried_nodes(const Scene& scene, const FreeSpace& space) {
+    const WorldMesh mesh = world_mesh(scene, pose_scene(scene), Part::Dynamic);
+    std::map<std::uint32_t, Bounds> box;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+        for (std::size_t k = 0; k < 3; ++k) box[mesh.nodes[t]].add(mesh.positions[mesh.indices[3 * t + k]]);
+    std::vector<std::string> names;
+    for (const auto& [node, bounds] : box)
+        if (space.buried(0.5f * (bounds.min + bounds.max)))
+            names.push_back(scene.nodes[node].name.empty() ? "node " + std::to_string(node) : scene.nodes[node].name);
+    return names;
 }
 
 /// From the gather's components to the file's: [part][number][component] both.
@@ -203,7 +222,7 @@ void quantise(const std::vector<float>& records, IrradianceVolume& volume) {
     };
     volume.values.resize(count * numbers);
     volume.changes.resize(3 * count * numbers);
-    volume.change_scale.assign(numbers, 0.0f);
+    volume.change_scale.resize(count * components);
     for (std::size_t r = 0; r < components; ++r) {
         float largest = 0.0f;
         for (std::size_t s = 0; s < count; ++s)
@@ -211,20 +230,20 @@ void quantise(const std::vector<float>& records, IrradianceVolume& volume) {
         const float scale = largest > 0.0f ? largest / kLargestHalf : 1.0f;
         for (std::size_t c = 0; c < volume.basis.columns(); ++c)
             volume.basis.curves[r * volume.basis.columns() + c] *= scale;
-        for (std::size_t i = 0; i < kNumbers; ++i) {
+        for (std::size_t s = 0; s < count; ++s) {
             float steepest = 0.0f;
-            for (std::size_t s = 0; s < count; ++s)
-                for (std::size_t a = 1; a < 4; ++a)
-                    steepest = std::max(steepest, std::abs(number(s, a, i, r)) * sides[s]);
-            volume.change_scale[r * kNumbers + i] = steepest / scale;
-            for (std::size_t s = 0; s < count; ++s) {
+            for (std::size_t i = 0; i < kNumbers; ++i) {
                 volume.values[(r * kNumbers + i) * count + s] = glm::packHalf1x16(number(s, 0, i, r) / scale);
-                for (std::size_t a = 0; a < 3; ++a)
-                    volume.changes[((r * 3 + a) * kNumbers + i) * count + s] =
-                        steepest > 0.0f
-                            ? std::int8_t(std::lround(127.0f * number(s, a + 1, i, r) * sides[s] / steepest))
-                            : 0;
+                for (std::size_t a = 1; a < 4; ++a)
+                    steepest = std::max(steepest, std::abs(number(s, a, i, r)) * sides[s] / scale);
             }
+            const std::uint16_t coded = glm::packHalf1x16(std::min(steepest, kFullHalf));
+            const float step = glm::unpackHalf1x16(coded) / 127.0f;
+            volume.change_scale[r * count + s] = coded;
+            for (std::size_t i = 0; step > 0.0f && i < kNumbers; ++i)
+                for (std::size_t a = 0; a < 3; ++a)
+                    volume.changes[((r * 3 + a) * kNumbers + i) * count + s] = std::int8_t(
+                        std::lround(std::clamp(number(s, a + 1, i, r) * sides[s] / scale / step, -127.0f, 127.0f)));
         }
     }
 }
@@ -268,6 +287,7 @@ EncodedVolume encode_volume(const Scene& scene, const GatherScene& gather, const
     EncodedVolume result;
     const std::vector<Bounds> regions = swept_boxes(scene);
     const FreeSpace space = reachable_space(scene, gather.rays, regions);
+    result.buried = buried_nodes(scene, space);
     const ProbeGather probes(gather, hits, leaving);
     const std::vector<Rgb> pilots = pilot_rows(probes, space, regions, leaving.components, settings);
     const JudgedBasis basis =
@@ -275,6 +295,8 @@ EncodedVolume encode_volume(const Scene& scene, const GatherScene& gather, const
     const std::vector<Moment> judged = judged_moments(moments);
     const Judge judge(basis.dense, judged);
     const Turn turn(basis.turn);
+    require_affordable(settings, lay_octree(space, regions).size,
+                       bytes_per_volume_cell(std::size_t(basis.stored.components), judge.functionals()));
     const RefinedVolume refined = refine_volume(
         gather.rays, space, regions,
         [&](const Vec3& place, std::uint64_t key) { return sample(probes, turn, judge, place, key, settings); },
@@ -282,15 +304,17 @@ EncodedVolume encode_volume(const Scene& scene, const GatherScene& gather, const
     const OctreeCells cells = make_cells(refined.octree, same_light_by_rays(refined, space));
     const std::size_t components = std::size_t(basis.stored.components);
     VolumeFit fit = fit_volume(cells, refined, kNumbers * components);
+    // Records inside of walls stand for what their cells interpolate, not for light that is there.
     for (std::size_t s = 0; s < cells.samples.size(); ++s)
-        result.window = std::max(result.window,
-                                 double(window(fit.records.data() + 4 * s * kNumbers * components, components, judge)));
+        if (fit.measured[s])
+            result.window = std::max(
+                result.window, double(window(fit.records.data() + 4 * s * kNumbers * components, components, judge)));
     result.volume.tree = cells.tree;
     result.volume.basis = basis.stored;
     quantise(fit.records, result.volume);
     result.error = measure(cells, refined, result.volume, basis.dense, judged);
     result.samples = refined.places.samples.size();
-    result.unmeasured = fit.unmeasured;
+    result.unmeasured = std::size_t(std::count(fit.measured.begin(), fit.measured.end(), false));
     result.budget_spent = refined.budget_spent;
     progress.at(1.0);
     return result;

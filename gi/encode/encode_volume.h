@@ -1,5 +1,8 @@
 #pragma once
 // The day's light in free space as the volume that the runtime reads.
+#include <string>
+#include <vector>
+
 #include "engine/baked/irradiance_volume.h"
 #include "gi/encode/judged_basis.h"
 #include "gi/encode/volume_refine.h"
@@ -14,7 +17,9 @@ struct EncodedVolume {
     std::size_t samples = 0;     // traced
     std::size_t unmeasured = 0;  // records whose corner lies in a wall
     double window = 0.0;         // largest lambda of the windows that took away negative light
-    bool budget_spent = false;   // cells ran out before errors did
+    std::vector<std::string>
+        buried;                 // dynamic nodes that rest inside of something solid, lit as the nearest open place
+    bool budget_spent = false;  // cells ran out before errors did
 };
 
 /// Where light is wanted: what cameras and moving things can reach, and open air.

@@ -8,10 +8,12 @@
 namespace daylit {
 namespace {
 
-constexpr int kSteps = 30;              // of conjugate gradients
+constexpr int kMostSteps = 200;         // of conjugate gradients
+constexpr double kLeft = 1e-6;          // of the squared residual of zero, where steps end
 constexpr std::size_t kColumns = 64;    // solved together
 constexpr float kMostOfChange = 0.25f;  // weight of a change that rays told, against a value: silhouettes are not in it
-constexpr float kWeakly = 1e-2f;        // weight of guesses, which only decide what nothing was measured about
+constexpr double kDarkest = 1e-5;       // of the mean brightness: the darkest that errors are relative to
+constexpr float kWeakly = 0.1f;         // weight of guesses, against what was measured
 
 /// Sparse rows: number i of a row counts weight times.
 struct Entry {
@@ -55,12 +57,14 @@ class Fitter {
 
     VolumeFit fit() {
         find_sides();
+        find_darkest();
         expand_hanging();
         state_corners();
         state_insides();
+        state_before_walls();
         guess_unmeasured();
         VolumeFit result;
-        result.unmeasured = std::size_t(std::count(measured_.begin(), measured_.end(), nullptr));
+        for (const VolumeSample* sample : measured_) result.measured.push_back(sample != nullptr);
         result.records.assign(4 * cells_.samples.size() * numbers_, 0.0f);
         const std::size_t blocks = (numbers_ + kColumns - 1) / kColumns;
         tbb::parallel_for(std::size_t(0), blocks, [&](std::size_t b) {
@@ -83,6 +87,26 @@ class Fitter {
     void find_sides() {
         for (const SampledCorner& corner : cells_.samples)
             side_.push_back(refined_.octree.side_of(refined_.octree.nodes[corner.seen_by[0].leaf]));
+    }
+
+    static double brightness(const VolumeSample& sample) {
+        double sum = 0.0;
+        const std::size_t functionals = sample.judged.size() / 4;
+        for (std::size_t f = 0; f < functionals; ++f) sum += double(sample.judged[f]) * double(sample.judged[f]);
+        return functionals ? std::sqrt(sum / double(functionals)) : 0.0;
+    }
+
+    void find_darkest() {
+        double sum = 0.0;
+        for (const VolumeSample& s : refined_.places.samples) sum += brightness(s);
+        darkest_ = kDarkest * sum / double(std::max<std::size_t>(refined_.places.samples.size(), 1));
+    }
+
+    /// Errors count relative to the light where they are: else what is left of a bright room's, when steps end, would
+    /// be as much as all the light of the dark room beside it.
+    float importance(const VolumeSample& sample) const {
+        const double light = std::max({brightness(sample), darkest_, 1e-15});
+        return float(1.0 / (light * light));
     }
 
     void expand_hanging() {
@@ -109,6 +133,12 @@ class Fitter {
                 add_scaled(weights[part], rows_[4 * record_of(cell, corner) + std::size_t(part)], row);
     }
 
+    /// Of a change over this many metres, against its value.
+    static float weight_of_change(const VolumeSample& sample, float side) {
+        const float noise = sample.change_noise * side;
+        return noise > 0.0f ? std::min(kMostOfChange, 1.0f / (noise * noise)) : kMostOfChange;
+    }
+
     void state_corners() {
         for (std::uint32_t s = 0; s < cells_.samples.size(); ++s) {
             const SampledCorner& corner = cells_.samples[s];
@@ -119,11 +149,12 @@ class Fitter {
                         found = sample(side, p);
             measured_.push_back(found);
             if (!found) continue;
-            equations_.push_back({{{4 * s, 1.0f}}, 1.0f, found->light.data(), 1.0f});
-            const float noise = found->change_noise * side_[s];
-            const float weight = noise > 0.0f ? std::min(kMostOfChange, 1.0f / (noise * noise)) : kMostOfChange;
+            const float importance_here = importance(*found);
+            equations_.push_back({{{4 * s, 1.0f}}, importance_here, found->light.data(), 1.0f});
+            const float weight = weight_of_change(*found, side_[s]);
             for (std::uint32_t a = 1; a < 4; ++a)
-                equations_.push_back({{{4 * s + a, 1.0f}}, weight, found->light.data() + a * numbers_, side_[s]});
+                equations_.push_back(
+                    {{{4 * s + a, 1.0f}}, importance_here * weight, found->light.data() + a * numbers_, side_[s]});
         }
     }
 
@@ -133,7 +164,7 @@ class Fitter {
                 if (p % 3 != 1 && p / 3 % 3 != 1 && p / 9 != 1) continue;  // a corner, stated already
                 const VolumeSample* measured = sample(cells_.cells[c], p);
                 if (!measured) continue;
-                Equation equation{{}, 1.0f, measured->light.data(), 1.0f};
+                Equation equation{{}, importance(*measured), measured->light.data(), 1.0f};
                 const glsl::VolumeCell& cell = cells_.tree.cells[c];
                 for (int corner = 0; corner < 8; ++corner)
                     blend(cell, corner, glsl::volume_corner_weights(corner, t_of(p), cell.box.w), equation.row);
@@ -142,34 +173,79 @@ class Fitter {
             }
     }
 
-    /// What nothing is measured about is even, and as bright as the nearest measured place of its cell.
+    void state_before_walls() {
+        for (std::uint32_t c = 0; c < cells_.cells.size(); ++c)
+            for (const RefinedLeaf::WallSample& at : leaf(cells_.cells[c]).before_walls) {
+                if (at.side != cells_.cells[c].side) continue;
+                const VolumeSample& measured = refined_.places.samples[std::size_t(at.sample)];
+                const glsl::VolumeCell& cell = cells_.tree.cells[c];
+                const float weight = importance(measured) * weight_of_change(measured, cell.box.w);
+                for (std::size_t part = 0; part < 4; ++part) {
+                    Equation equation{{}, importance(measured), measured.light.data() + part * numbers_, 1.0f};
+                    for (int corner = 0; corner < 8; ++corner)
+                        blend(cell, corner,
+                              part == 0 ? glsl::volume_corner_weights(corner, at.t, cell.box.w)
+                                        : corner_weights_change(corner, at.t, cell.box.w, int(part) - 1),
+                              equation.row);
+                    tidy(equation.row);
+                    if (part > 0) {  // over the cell's side, as at corners
+                        equation.weight = weight, equation.scale = cell.box.w;
+                        for (Entry& e : equation.row) e.weight *= cell.box.w;
+                    }
+                    equations_.push_back(std::move(equation));
+                }
+            }
+    }
+
+    /// What nothing is measured about goes on as before the wall, or is as bright as the nearest measured place of its
+    /// cell.
     void guess_unmeasured() {
         for (std::uint32_t s = 0; s < cells_.samples.size(); ++s) {
             if (measured_[s]) continue;
-            const SampledCorner& corner = cells_.samples[s];
-            const VolumeSample* nearest = nullptr;
-            double least = 1e30;
-            for (const LeafSide& side : corner.seen_by)
-                for (int p = 0; p < kLeafPlaces; ++p) {
-                    const Lattice& at = refined_.places.places[leaf(side).place[std::size_t(p)]].at;
-                    const double distance = glm::length(glm::dvec3(at - corner.at));
-                    if (distance < least && sample(side, p)) least = distance, nearest = sample(side, p);
-                }
-            guess_.emplace_back(s, nearest);
-            equations_.push_back({{{4 * s, 1.0f}}, kWeakly, nearest ? nearest->light.data() : nullptr, 1.0f});
+            const VolumeSample* before = sample_before(cells_.samples[s]);
+            const VolumeSample* guess = before ? before : nearest_sample(cells_.samples[s]);
+            guess_.emplace_back(s, guess);
+            const float weak = kWeakly * (guess ? importance(*guess) : 1.0f);
+            equations_.push_back({{{4 * s, 1.0f}}, weak, guess ? guess->light.data() : nullptr, 1.0f});
             for (std::uint32_t a = 1; a < 4; ++a)
-                equations_.push_back({{{4 * s + a, 1.0f}}, 3.0f * kWeakly, nullptr, 1.0f});
+                equations_.push_back(
+                    {{{4 * s + a, 1.0f}}, weak, before ? before->light.data() + a * numbers_ : nullptr, side_[s]});
         }
+    }
+
+    const VolumeSample* sample_before(const SampledCorner& corner) const {
+        for (const LeafSide& side : corner.seen_by)
+            for (const RefinedLeaf::WallSample& at : leaf(side).before_walls)
+                if (at.side == side.side &&
+                    refined_.places.places[leaf(side).place[std::size_t(at.place)]].at == corner.at)
+                    return &refined_.places.samples[std::size_t(at.sample)];
+        return nullptr;
+    }
+
+    const VolumeSample* nearest_sample(const SampledCorner& corner) const {
+        const VolumeSample* nearest = nullptr;
+        double least = 1e30;
+        for (const LeafSide& side : corner.seen_by)
+            for (int p = 0; p < kLeafPlaces; ++p) {
+                const Lattice& at = refined_.places.places[leaf(side).place[std::size_t(p)]].at;
+                const double distance = glm::length(glm::dvec3(at - corner.at));
+                if (distance < least && sample(side, p)) least = distance, nearest = sample(side, p);
+            }
+        return nearest;
     }
 
     /// Conjugate gradients on the normal equations of numbers [first, last), preconditioned by their diagonal.
     void solve(std::size_t first, std::size_t last, std::vector<float>& records) const {
         const std::size_t columns = last - first, unknowns = 4 * cells_.samples.size();
         std::vector<float> x(unknowns * columns, 0.0f), residual(x.size(), 0.0f), direction, turned(x.size());
+        std::vector<float> asked(x.size(), 0.0f);  // the residual of zero
         std::vector<float> scale(unknowns, 0.0f), line(columns);
         start(first, columns, x);
         for (const Equation& e : equations_) {
             for (std::size_t i = 0; i < columns; ++i) line[i] = e.value ? e.scale * e.value[first + i] : 0.0f;
+            for (const Entry& entry : e.row)
+                for (std::size_t i = 0; i < columns; ++i)
+                    asked[entry.unknown * columns + i] += e.weight * entry.weight * line[i];
             for (const Entry& entry : e.row)
                 for (std::size_t i = 0; i < columns; ++i) line[i] -= entry.weight * x[entry.unknown * columns + i];
             for (const Entry& entry : e.row) {
@@ -181,7 +257,7 @@ class Fitter {
         const auto precondition = [&](const std::vector<float>& from) {
             std::vector<float> to(from);
             for (std::size_t u = 0; u < unknowns; ++u)
-                for (std::size_t i = 0; i < columns; ++i) to[u * columns + i] /= std::max(scale[u], 1e-20f);
+                for (std::size_t i = 0; i < columns; ++i) to[u * columns + i] /= std::max(scale[u], 1e-30f);
             return to;
         };
         const auto products = [&](const std::vector<float>& a, const std::vector<float>& b) {
@@ -193,7 +269,13 @@ class Fitter {
         };
         direction = precondition(residual);
         std::vector<double> before = products(residual, direction);
-        for (int step = 0; step < kSteps; ++step) {
+        const std::vector<double> of_zero = products(asked, precondition(asked));
+        const auto solved = [&] {
+            for (std::size_t i = 0; i < columns; ++i)
+                if (before[i] > kLeft * of_zero[i]) return false;
+            return true;
+        };
+        for (int step = 0; step < kMostSteps && !solved(); ++step) {
             std::fill(turned.begin(), turned.end(), 0.0f);
             for (const Equation& e : equations_) {
                 std::fill(line.begin(), line.end(), 0.0f);
@@ -229,10 +311,12 @@ class Fitter {
     void start(std::size_t first, std::size_t columns, std::vector<float>& x) const {
         for (std::size_t s = 0; s < measured_.size(); ++s) {
             if (!measured_[s]) continue;
+            // A change that is all noise, as beside a wall, is no place to start at.
+            const float certain = side_[s] * weight_of_change(*measured_[s], side_[s]) / kMostOfChange;
             for (std::size_t part = 0; part < 4; ++part)
                 for (std::size_t i = 0; i < columns; ++i)
                     x[(4 * s + part) * columns + i] =
-                        (part == 0 ? 1.0f : side_[s]) * measured_[s]->light[part * numbers_ + first + i];
+                        (part == 0 ? 1.0f : certain) * measured_[s]->light[part * numbers_ + first + i];
         }
         for (const auto& [s, nearest] : guess_)
             for (std::size_t i = 0; nearest && i < columns; ++i) x[4 * s * columns + i] = nearest->light[first + i];
@@ -241,6 +325,7 @@ class Fitter {
     const OctreeCells& cells_;
     const RefinedVolume& refined_;
     std::size_t numbers_;
+    double darkest_ = 0.0;
     std::vector<float> side_;                    // per sampled record, metres
     std::vector<Row> rows_;                      // per record and part: by unknowns
     std::vector<const VolumeSample*> measured_;  // per sampled record; null: not measured

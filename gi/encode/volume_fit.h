@@ -7,7 +7,7 @@ namespace daylit {
 
 struct VolumeFit {
     std::vector<float> records;  // [sampled record][part 4][numbers]; parts are the value and its change along x, y, z
-    std::size_t unmeasured = 0;  // records whose corner is inside of a wall, or behind one
+    std::vector<bool> measured;  // by record; not where its corner is inside of a wall, or behind one
 };
 
 /// Least squares over values at corners, in the middle of cells and faces, and the changes that the corners' own rays

@@ -6,9 +6,9 @@
 
 namespace daylit {
 
-/// A place of the finest lattice: root corners are kOctreeUnits apart.
+/// A place of the finest lattice: root corners are kOctreeUnits apart, so that the finest cells too have middles.
 using Lattice = glm::ivec3;
-inline constexpr int kOctreeUnits = 1 << glsl::kVolumeMostLevels;
+inline constexpr int kOctreeUnits = 2 << glsl::kVolumeMostLevels;
 
 /// An octree while it is being refined.
 struct Octree {

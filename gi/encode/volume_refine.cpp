@@ -15,7 +15,10 @@ constexpr std::size_t kBatch = 256;  // leaves split before errors are compared 
 constexpr float kRootsAlong = 8.0f;  // the longest side
 constexpr float kSmallest = 0.25f;   // metres, of cells of the level that ends refinement unless one is given
 constexpr int kFinest = 4, kCoarsest = 12;
-constexpr float kFloor = 0.1f;  // of the volume's mean light that errors are compared with, beside the light there
+constexpr float kBeforeWall =
+    0.05f;                       // sides between a wall and the sample that is taken in place of a corner behind it
+constexpr double kUnseen = 1.0;  // error of a cell in which nothing could be measured, over the mean light
+constexpr float kFloor = 0.1f;   // of the volume's mean light that errors are compared with, beside the light there
 
 struct LatticeHash {
     std::size_t operator()(const Lattice& p) const {
@@ -42,7 +45,8 @@ struct Tested {
     int groups = 0;       // of places that see each other
     bool parted = false;  // by a plane between exactly two groups
     std::optional<Vec4> plane;
-    double error = 0.0;  // over the target; 0: well enough
+    double error = 0.0;   // worst, over the target; 1 and less: well enough
+    double square = 0.0;  // mean square error, over the volume's mean light, times the free space of the cell
 };
 
 class Refiner {
@@ -68,23 +72,11 @@ class Refiner {
 
   private:
     void lay_roots() {
-        Bounds all = space_.box();
-        for (const Bounds& b : regions_)
-            if (!b.empty()) all.add(b.min), all.add(b.max);
-        if (all.empty()) return;
-        const Vec3 extent = all.max - all.min;
-        const float longest = std::max({extent.x, extent.y, extent.z, 1e-4f});
-        const float side = longest / kRootsAlong;
+        out_.octree = lay_octree(space_, regions_);
         max_level_ = settings_.max_level >= 0
                          ? settings_.max_level
-                         : std::clamp(int(std::ceil(std::log2(side / kSmallest))), kFinest, kCoarsest);
-        std::array<int, 3> size;
-        Vec3 origin;
-        for (int a = 0; a < 3; ++a) {
-            size[std::size_t(a)] = std::max(1, int(std::ceil(extent[a] / side - 1e-3f)));
-            origin[a] = 0.5f * (all.min[a] + all.max[a] - side * float(size[std::size_t(a)]));
-        }
-        out_.octree = Octree(origin, side, size);
+                         : std::clamp(int(std::ceil(std::log2(out_.octree.side / kSmallest))), kFinest, kCoarsest);
+        max_level_ = std::max(max_level_, settings_.min_level);
     }
 
     bool wanted(const Vec3& place) const {
@@ -95,17 +87,28 @@ class Refiner {
         return outside && std::any_of(regions_.begin(), regions_.end(), [&](const Bounds& b) {
                    const float reach = out_.octree.side;
                    return glm::all(glm::greaterThan(place, b.min - reach)) &&
-                          glm::all(glm::lessThan(place, b.max + reach));
+                          glm::all(glm::lessThan(place, b.max + reach)) && space_.open(0.5f * (b.min + b.max), place);
                });
     }
 
-    /// Something can be in it, though perhaps at none of its places.
-    bool may_hold(const Octree::Node& n) const {
-        const Bounds box{out_.octree.place(n.at), out_.octree.place(n.at + n.units())};
-        return space_.touches(box) || std::any_of(regions_.begin(), regions_.end(), [&](const Bounds& b) {
-                   return !b.empty() && glm::all(glm::lessThan(box.min, b.max)) &&
-                          glm::all(glm::greaterThan(box.max, b.min));
-               });
+    /// Errors count where something is likely to be: not in the air around the scene that cells at its border reach.
+    bool counts(const Vec3& place) const {
+        const auto in = [&](const Bounds& b) {
+            return !b.empty() && glm::all(glm::greaterThanEqual(place, b.min)) &&
+                   glm::all(glm::lessThanEqual(place, b.max));
+        };
+        return in(space_.box()) || std::any_of(regions_.begin(), regions_.end(), in);
+    }
+
+    /// How much of it is likely to be free though none of its places is; 0: nothing can be in it.
+    double free_share(const Octree::Node& n) const {
+        const Bounds box{out_.octree.place(n.at), out_.octree.place(n.at + n.units())}, &all = space_.box();
+        const bool within = !all.empty() && glm::all(glm::greaterThanEqual(box.min, all.min)) &&
+                            glm::all(glm::lessThanEqual(box.max, all.max));
+        const bool beside = !within && std::any_of(regions_.begin(), regions_.end(), [&](const Bounds& b) {
+            return !b.empty() && glm::all(glm::lessThan(box.min, b.max)) && glm::all(glm::greaterThan(box.max, b.min));
+        });
+        return std::max(space_.reached_share(box), beside ? 1.0 : 0.0) / kLeafPlaces;
     }
 
     void test(const std::vector<std::uint32_t>& leaves, const StageProgress& progress) {
@@ -119,6 +122,7 @@ class Refiner {
                 if (tested_[n].leaf.side[std::size_t(p)] >= 0 && (is_corner(p) || is_test(p)))
                     places.push_back(tested_[n].leaf.place[std::size_t(p)]);
         sample(std::move(places), progress);
+        sample_before_walls(leaves);
         for_each_parallel(leaves.size(), silent, [&](std::size_t i) { judge(leaves[i]); });
         waiting_.insert(waiting_.end(), leaves.begin(), leaves.end());
     }
@@ -249,10 +253,7 @@ class Refiner {
         });
         for (std::size_t i = 0; i < places.size(); ++i) {
             out_.places.places[places[i]].sample = int(first + i);
-            const std::vector<float>& judged = out_.places.samples[first + i].judged;
-            const std::size_t functionals = judged.size() / 4;
-            mean_.resize(functionals, 0.0);
-            for (std::size_t f = 0; f < functionals; ++f) mean_[f] += double(judged[f]);
+            add_to_mean(out_.places.samples[first + i]);
         }
     }
 
@@ -266,50 +267,86 @@ class Refiner {
         const Octree::Node& node = out_.octree.nodes[n];
         const int members =
             int(std::count_if(tested.leaf.side.begin(), tested.leaf.side.end(), [](int s) { return s >= 0; }));
+        const double length = double(out_.octree.side_of(node)), volume = length * length * length;
+        tested.error = tested.square = 0.0;
         if (members == 0) {
-            tested.error = may_hold(node) ? kOutlier : 0.0;
+            const double share = free_share(node);
+            if (share > 0.0) tested.error = kOutlier, tested.square = kUnseen * kUnseen * share * volume;
             return;
         }
-        tested.error = 0.0;
         if (tested.groups > 1 && !tested.parted) tested.error = kOutlier;
-        for (int side = 0; side < 2; ++side) tested.error = std::max(tested.error, side_error(tested, node, side));
-        if (node.level < settings_.min_level) tested.error = 1e6;
-        if (node.level < settings_.geometry_level && members < kLeafPlaces) tested.error = 1e6;
+        for (int side = 0; side < 2; ++side) {
+            const SideError found = side_error(tested, node, side);
+            int places = 0;
+            for (int p = 0; p < kLeafPlaces; ++p)
+                places += tested.leaf.side[std::size_t(p)] == side && counts(place_of(tested.leaf, p));
+            tested.error = std::max(tested.error, found.worst);
+            tested.square += found.square * volume * double(places) / kLeafPlaces;
+        }
+        if (node.level < settings_.geometry_level && members < kLeafPlaces) tested.error = kOutlier;
     }
 
-    /// Worst difference between what was measured and what the corners say, over the target.
-    double side_error(const Tested& tested, const Octree::Node& node, int side) const {
+    struct SideError {
+        double worst = 0.0;   // over the target
+        double square = 0.0;  // mean, over the volume's mean light
+    };
+
+    /// What is known about light at a corner: a sample, and where in [0,1]^3 it was taken.
+    struct StandIn {
+        const VolumeSample* sample = nullptr;
+        Vec3 from = Vec3(0.0f);
+    };
+
+    /// Between what was measured and what the corners say.
+    SideError side_error(const Tested& tested, const Octree::Node& node, int side) const {
         const float length = out_.octree.side_of(node);
-        std::array<const VolumeSample*, 8> corner{};
-        std::array<Vec3, 8> from{};
-        for (int c = 0; c < 8; ++c) corner[std::size_t(c)] = corner_sample(tested, c, side, from[std::size_t(c)]);
-        if (!corner[0]) return 0.0;
-        double worst = 0.0;
-        const std::size_t functionals = mean_.size();
-        for (const VolumeSample* s : corner) worst = std::max(worst, by_controls(*s, length));
-        for (int p = 0; p < kLeafPlaces; ++p) {
-            const VolumeSample* measured = sample_at(tested.leaf, p);
-            if (!measured || !is_test(p) || tested.leaf.side[std::size_t(p)] != side) continue;
-            for (std::size_t f = 0; f < functionals; ++f) {
-                double found = 0.0;
-                for (int c = 0; c < 8; ++c) {
-                    const std::vector<float>& judged = corner[std::size_t(c)]->judged;
-                    const Vec4 weights = glsl::volume_corner_weights(c, t_of(p), length);
-                    const Vec3 change(judged[functionals + f], judged[2 * functionals + f],
-                                      judged[3 * functionals + f]);
-                    const Vec3 moved = length * (Vec3(c & 1, c >> 1 & 1, c >> 2) - from[std::size_t(c)]);
-                    const float value = judged[f] + std::clamp(glm::dot(change, moved), -0.5f * std::abs(judged[f]),
-                                                               0.5f * std::abs(judged[f]));
-                    found += double(weights.x) * double(value) +
-                             double(glm::dot(Vec3(weights.y, weights.z, weights.w), change));
-                }
-                const double light = std::abs(double(measured->judged[f])) +
-                                     double(kFloor) * mean_[f] / double(out_.places.samples.size());
-                const double left = std::abs(found - double(measured->judged[f])) - 2.0 * double(measured->noise[f]);
-                if (left > 0.0 && light > 0.0) worst = std::max(worst, left / light / double(settings_.error));
-            }
+        std::array<StandIn, 8> corners;
+        for (int c = 0; c < 8; ++c) corners[std::size_t(c)] = stand_in(tested.leaf, c, side);
+        SideError result;
+        if (!corners[0].sample) return result;
+        for (const StandIn& c : corners) result.worst = std::max(result.worst, by_controls(*c.sample, length));
+        double tests = 0.0;
+        for (int p = 0; p < kLeafPlaces; ++p)
+            if (is_test(p) && tested.leaf.side[std::size_t(p)] == side && sample_at(tested.leaf, p))
+                compare(corners, length, *sample_at(tested.leaf, p), t_of(p), tests, result);
+        for (const RefinedLeaf::WallSample& before : tested.leaf.before_walls)
+            if (is_test(before.place) && before.side == side)
+                compare(corners, length, out_.places.samples[std::size_t(before.sample)], before.t, tests, result);
+        if (tests > 0.0) result.square /= tests;
+        result.worst = std::min(result.worst, double(kOutlier));
+        return result;
+    }
+
+    void compare(const std::array<StandIn, 8>& corners, float length, const VolumeSample& measured, const Vec3& t,
+                 double& tests, SideError& result) const {
+        for (std::size_t f = 0; f < mean_.size(); ++f) {
+            const double mean = mean_[f] / double(out_.places.samples.size());
+            const double truth = double(measured.judged[f]), light = std::abs(truth) + double(kFloor) * mean;
+            const double left = std::abs(interpolated(corners, f, t, length) - truth) - 2.0 * double(measured.noise[f]);
+            tests += 1.0;
+            if (left <= 0.0 || mean <= 0.0) continue;
+            result.worst = std::max(result.worst, left / light / double(settings_.error));
+            result.square += left * left / (mean * mean);
         }
-        return std::min(worst, double(kOutlier));
+    }
+
+    double interpolated(const std::array<StandIn, 8>& corners, std::size_t f, const Vec3& t, float length) const {
+        const std::size_t functionals = mean_.size();
+        double sum = 0.0;
+        for (int c = 0; c < 8; ++c) {
+            const auto& [sample, from] = corners[std::size_t(c)];
+            const std::vector<float>& judged = sample->judged;
+            const Vec4 weights = glsl::volume_corner_weights(c, t, length);
+            const float noise = sample->change_noise * length;
+            const Vec3 change =
+                Vec3(judged[functionals + f], judged[2 * functionals + f], judged[3 * functionals + f]) /
+                std::max(1.0f, noise * noise);
+            const Vec3 moved = length * (Vec3(c & 1, c >> 1 & 1, c >> 2) - from);
+            const float most = 0.5f * std::abs(judged[f]);
+            const float value = judged[f] + std::clamp(glm::dot(change, moved), -most, most);
+            sum += double(weights.x) * double(value) + double(glm::dot(Vec3(weights.y, weights.z, weights.w), change));
+        }
+        return sum;
     }
 
     /// Oat's tests of a corner alone.
@@ -323,36 +360,40 @@ class Refiner {
         return 0.0;
     }
 
-    /// The sample at a corner, or the nearest of the same side; `from` where it is, in [0,1]^3.
-    const VolumeSample* corner_sample(const Tested& tested, int corner, int side, Vec3& from) const {
+    /// The sample at a corner, or the nearest of the same side.
+    StandIn stand_in(const RefinedLeaf& leaf, int corner, int side) const {
         const Vec3 at(corner & 1, corner >> 1 & 1, corner >> 2);
-        const VolumeSample* best = nullptr;
+        StandIn best;
         float least = 1e9f;
-        for (int p = 0; p < kLeafPlaces; ++p) {
-            if (tested.leaf.side[std::size_t(p)] != side || !sample_at(tested.leaf, p)) continue;
-            const float distance = glm::distance(at, t_of(p));
-            if (distance < least) least = distance, best = sample_at(tested.leaf, p), from = t_of(p);
-        }
+        const auto consider = [&](const VolumeSample* sample, const Vec3& t) {
+            if (sample && glm::distance(at, t) < least) least = glm::distance(at, t), best = {sample, t};
+        };
+        for (int p = 0; p < kLeafPlaces; ++p)
+            if (leaf.side[std::size_t(p)] == side) consider(sample_at(leaf, p), t_of(p));
+        for (const RefinedLeaf::WallSample& before : leaf.before_walls)
+            if (before.side == side && is_corner(before.place))
+                consider(&out_.places.samples[std::size_t(before.sample)], before.t);
         return best;
     }
 
     /// Splits the leaves whose error matters most, and returns their children; none when all are well or the budget is
     /// spent.
     std::vector<std::uint32_t> split_worst() {
+        const auto asked_for = [&](std::uint32_t n) { return out_.octree.nodes[n].level < settings_.min_level; };
         std::erase_if(waiting_, [&](std::uint32_t n) {
-            return tested_[n].error <= 1.0 || out_.octree.nodes[n].level >= max_level_;
+            return (tested_[n].error <= 1.0 && !asked_for(n)) || out_.octree.nodes[n].level >= max_level_;
         });
-        const auto importance = [&](std::uint32_t n) {
-            const double side = double(out_.octree.side_of(out_.octree.nodes[n]));
-            return tested_[n].error * tested_[n].error * side * side * side;
-        };
-        std::stable_sort(waiting_.begin(), waiting_.end(),
-                         [&](std::uint32_t a, std::uint32_t b) { return importance(a) > importance(b); });
+        std::stable_sort(waiting_.begin(), waiting_.end(), [&](std::uint32_t a, std::uint32_t b) {
+            if (asked_for(a) != asked_for(b)) return asked_for(a);
+            return tested_[a].square > tested_[b].square;
+        });
+        const auto forced = std::size_t(std::count_if(waiting_.begin(), waiting_.end(), asked_for));
         std::vector<std::uint32_t> children;
-        std::size_t count = std::min(waiting_.size(), std::max(kBatch, leaves() / 8));
+        std::size_t count = std::min(waiting_.size(), std::max({kBatch, leaves() / 8, forced}));
         if (leaves() + 7 * count > settings_.most_cells) {
             count = leaves() < settings_.most_cells ? std::min(count, (settings_.most_cells - leaves()) / 7) : 0;
             out_.budget_spent = !waiting_.empty();
+            count = std::max(count, forced);
         }
         for (std::size_t i = 0; i < count; ++i) {
             out_.octree.split(waiting_[i]);
@@ -378,15 +419,83 @@ class Refiner {
             if (node.empty) continue;
             if (members[0] > 0 && members[1] > 0) node.cut = true, node.plane = *tested.plane;
             out_.leaves[n] = tested.leaf;
-            if (!node.cut && members[1] > 0)
+            if (!node.cut && members[1] > 0) {
                 for (std::int8_t& side : out_.leaves[n].side)
                     if (side == 1) side = 0;
+                for (RefinedLeaf::WallSample& at : out_.leaves[n].before_walls) at.side = 0;
+            }
             const bool whole = members[0] == kLeafPlaces;
             for (int p = 0; !whole && p < kLeafPlaces; ++p)
                 if (tested.leaf.side[std::size_t(p)] >= 0) places.push_back(tested.leaf.place[std::size_t(p)]);
         }
         sample(std::move(places), progress);
         merge_empty();
+    }
+
+    /// Light for corners inside of walls: without, it would be guessed from the middle of the cell.
+    void sample_before_walls(const std::vector<std::uint32_t>& leaves) {
+        std::vector<std::pair<Vec3, std::uint64_t>> asked;
+        const auto first = int(out_.places.samples.size());
+        for (const std::uint32_t n : leaves) {
+            const Octree::Node& node = out_.octree.nodes[n];
+            RefinedLeaf& leaf = tested_[n].leaf;
+            for (int side = 0; side < (tested_[n].plane ? 2 : 1); ++side)
+                for (int p = 0; p < kLeafPlaces; ++p) {
+                    if (!(is_corner(p) || is_test(p)) || leaf.side[std::size_t(p)] == side) continue;
+                    const int from = nearest_place(leaf, side, t_of(p));
+                    if (from < 0) continue;
+                    const std::optional<Vec3> place = before_wall(place_of(leaf, from), place_of(leaf, p), node);
+                    if (!place) continue;
+                    const auto [at, is_new] = before_wall_.try_emplace(
+                        {leaf.place[std::size_t(p)], leaf.place[std::size_t(from)]}, first + int(asked.size()));
+                    const Lattice& corner = out_.places.places[leaf.place[std::size_t(p)]].at;
+                    if (is_new) asked.emplace_back(*place, mix64(LatticeHash{}(corner) + std::uint64_t(from)));
+                    const Vec3 t = (*place - out_.octree.place(node.at)) / out_.octree.side_of(node);
+                    leaf.before_walls.push_back({t, p, side, at->second});
+                }
+        }
+        out_.places.samples.resize(std::size_t(first) + asked.size());
+        for_each_parallel(asked.size(), StageProgress{Progress{}}, [&](std::size_t i) {
+            out_.places.samples[std::size_t(first) + i] = sample_(asked[i].first, asked[i].second);
+        });
+        for (std::size_t i = std::size_t(first); i < out_.places.samples.size(); ++i)
+            add_to_mean(out_.places.samples[i]);
+    }
+
+    void add_to_mean(const VolumeSample& sample) {
+        mean_.resize(sample.judged.size() / 4, 0.0);
+        for (std::size_t f = 0; f < mean_.size(); ++f) mean_[f] += double(sample.judged[f]);
+    }
+
+    /// The place of this side that is nearest; -1: there is none.
+    static int nearest_place(const RefinedLeaf& leaf, int side, const Vec3& t) {
+        int best = -1;
+        for (int p = 0; p < kLeafPlaces; ++p)
+            if (leaf.side[std::size_t(p)] == side &&
+                (best < 0 || glm::distance(t, t_of(p)) < glm::distance(t, t_of(best))))
+                best = p;
+        return best;
+    }
+
+    /// On the way from one place to another, just before what is met first: a surface, or the end of the scene's box.
+    std::optional<Vec3> before_wall(const Vec3& from, const Vec3& to, const Octree::Node& node) const {
+        const float length = glm::distance(from, to);
+        const Vec3 along = (to - from) / length;
+        const std::optional<Hit> met = rays_.closest({from, along, 0.0f, length}, 0);
+        const float end = std::min(met ? met->distance : length, length * share_inside(space_.box(), from, to));
+        if (!met && end >= length) return std::nullopt;
+        return from + (end - std::min(kBeforeWall * out_.octree.side_of(node), 0.5f * end)) * along;
+    }
+
+    /// Of the way from a place in a box to another; 1 where it starts outside.
+    static float share_inside(const Bounds& box, const Vec3& from, const Vec3& to) {
+        float share = 1.0f;
+        for (int a = 0; a < 3; ++a) {
+            if (box.empty() || from[a] < box.min[a] || from[a] > box.max[a]) return 1.0f;
+            if (to[a] < box.min[a]) share = std::min(share, (box.min[a] - from[a]) / (to[a] - from[a]));
+            if (to[a] > box.max[a]) share = std::min(share, (box.max[a] - from[a]) / (to[a] - from[a]));
+        }
+        return share;
     }
 
     /// Eight empty leaves are one.
@@ -410,13 +519,30 @@ class Refiner {
     const VolumeSettings& settings_;
     RefinedVolume out_;
     std::unordered_map<Lattice, std::uint32_t, LatticeHash> index_;
-    std::vector<Tested> tested_;          // by node
-    std::vector<std::uint32_t> waiting_;  // leaves that may be split
-    std::vector<double> mean_;            // sums over samples
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> before_wall_;  // by corner and place that it is seen from
+    std::vector<Tested> tested_;                                          // by node
+    std::vector<std::uint32_t> waiting_;                                  // leaves that may be split
+    std::vector<double> mean_;                                            // sums over samples
     int max_level_ = 0;
 };
 
 }  // namespace
+
+Octree lay_octree(const FreeSpace& space, const std::vector<Bounds>& regions) {
+    Bounds all = space.box();
+    for (const Bounds& b : regions)
+        if (!b.empty()) all.add(b.min), all.add(b.max);
+    if (all.empty()) return {};
+    const Vec3 extent = all.max - all.min;
+    const float side = std::max({extent.x, extent.y, extent.z, 1e-4f}) / kRootsAlong;
+    std::array<int, 3> size;
+    Vec3 origin;
+    for (int a = 0; a < 3; ++a) {
+        size[std::size_t(a)] = std::max(1, int(std::ceil(extent[a] / side - 1e-3f)));
+        origin[a] = 0.5f * (all.min[a] + all.max[a] - side * float(size[std::size_t(a)]));
+    }
+    return Octree(origin, side, size);
+}
 
 RefinedVolume refine_volume(const RayScene& rays, const FreeSpace& space, const std::vector<Bounds>& regions,
                             const SampleVolume& sample, const VolumeSettings& settings, const StageProgress& progress) {

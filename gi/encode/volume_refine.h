@@ -39,6 +39,14 @@ inline constexpr int kLeafPlaces = 27;
 struct RefinedLeaf {
     std::array<std::uint32_t, kLeafPlaces> place{};  // index into places
     std::array<std::int8_t, kLeafPlaces> side{};     // -1: of no cell; 0: of the leaf or its front; 1: of its back
+
+    /// Taken in the open, just before the wall that one of the places lies behind.
+    struct WallSample {
+        Vec3 t;         // where in the leaf
+        int place = 0;  // of the 27
+        int side = 0, sample = 0;
+    };
+    std::vector<WallSample> before_walls;
 };
 
 struct RefinedVolume {
@@ -47,6 +55,9 @@ struct RefinedVolume {
     std::map<std::uint32_t, RefinedLeaf> leaves;  // those with cells
     bool budget_spent = false;
 };
+
+/// Roots alone, over the scene's box and the regions: cubes of an eighth of the longest side.
+Octree lay_octree(const FreeSpace& space, const std::vector<Bounds>& regions);
 
 /// Every corner of every cell that is free, and every other free place that told of the light, has a sample.
 /// regions   boxes where something can be though they leave the scene's box

@@ -4,6 +4,12 @@
 #include <cmath>
 
 namespace daylit {
+namespace {
+
+constexpr int kLooks = 64;
+constexpr float kTouching = 1e-3f;  // cells
+
+}  // namespace
 
 FreeSpace::FreeSpace(const RayScene& rays, int cells) : rays_(rays), box_(rays.bounds()) {
     if (box_.empty()) {
@@ -54,16 +60,33 @@ void FreeSpace::spread() {
 
 bool FreeSpace::reachable(const Vec3& place) const {
     const glm::ivec3 cell = cell_of(place);
-    return inside(cell) && reached_[index(cell)] && open(centre(cell), place);
+    if (!inside(cell) || !reached_[index(cell)]) return false;
+    // A little further on, since a place on a surface, where half of what is seen lies behind it, is not free.
+    const Vec3 along = place - centre(cell);
+    const float distance = glm::length(along);
+    return distance == 0.0f || open(centre(cell), place + kTouching * cell_ / distance * along);
 }
 
-bool FreeSpace::touches(const Bounds& box) const {
+double FreeSpace::reached_share(const Bounds& box) const {
     const glm::ivec3 first = glm::max(cell_of(box.min), glm::ivec3(0)), last = glm::min(cell_of(box.max), counts_ - 1);
+    long all = 0, reached = 0;
     for (int z = first.z; z <= last.z; ++z)
         for (int y = first.y; y <= last.y; ++y)
-            for (int x = first.x; x <= last.x; ++x)
-                if (reached_[index({x, y, z})]) return true;
-    return false;
+            for (int x = first.x; x <= last.x; ++x) ++all, reached += reached_[index({x, y, z})];
+    return all > 0 ? double(reached) / double(all) : 0.0;
+}
+
+bool FreeSpace::buried(const Vec3& place) const {
+    int backs = 0;
+    for (int look = 0; look < kLooks; ++look) {
+        // Evenly over the sphere, a golden angle apart (Swinbank and Purser 2006).
+        const float y = 1.0f - (2.0f * float(look) + 1.0f) / float(kLooks), r = std::sqrt(1.0f - y * y);
+        const float turn = 2.39996323f * float(look);
+        const Vec3 direction(r * std::cos(turn), y, r * std::sin(turn));
+        const std::optional<Hit> met = rays_.closest({place, direction}, std::uint64_t(look));
+        backs += met && glm::dot(direction, met->normal) > 0.0f;
+    }
+    return 2 * backs > kLooks;
 }
 
 bool FreeSpace::open(const Vec3& from, const Vec3& to) const {

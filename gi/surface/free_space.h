@@ -20,8 +20,10 @@ class FreeSpace {
     void spread();
     /// Whether nothing lies between a reached cell's centre and this place in it. False outside of the box.
     bool reachable(const Vec3& place) const;
-    /// Whether a box overlaps a reached cell.
-    bool touches(const Bounds& box) const;
+    /// Share of reached cells among those that a box overlaps.
+    double reached_share(const Bounds& box) const;
+    /// Whether a place is inside of something solid: what is seen from it, all around, is mostly the backs of faces.
+    bool buried(const Vec3& place) const;
     /// Whether nothing lies between two places.
     bool open(const Vec3& from, const Vec3& to) const;
 

@@ -138,6 +138,7 @@ expect(2, "--size", "shot", good, "-o", out, "--size", "big")
 expect(2, "--show", *shot, "--show", "sparkle")
 expect(2, "--context", *shot, "--context", "vulkan")
 expect(2, "--sky", *shot, "--sky", "green")
+expect(2, "--volume-mode", *shot, "--volume-mode", "texel")
 expect(2, "--nonsense", *shot, "--nonsense")
 expect(2, "", "frobnicate")
 expect(2, "")
@@ -147,6 +148,10 @@ expect(1, "absent/ref.exr", "reference", good, "-o", work / "absent" / "ref.exr"
 expect(1, "nobody", "reference", good, "-o", work / "ref.exr", "--camera", "nobody", output=work / "ref.exr")
 expect(1, "--spp", "reference", good, "-o", work / "ref.exr", "--spp", "0", output=work / "ref.exr")
 expect(1, "absent/x.daylit", "bake", good, "-o", work / "absent" / "x.daylit")
+for option, value in (("--volume-min-level", "21"), ("--volume-max-level", "-7"), ("--volume-geometry-level", "21"),
+                      ("--volume-change", "0"), ("--volume-near", "-1"), ("--volume-error", "nan")):
+    expect(1, option, "bake", good, "-o", work / "x.daylit", option, value, output=work / "x.daylit")
+expect(2, "--volume-cells", "bake", good, "-o", work / "x.daylit", "--volume-cells", "many", output=work / "x.daylit")
 expect(1, "text.daylit", "info", work / "text.daylit")
 expect(1, "absent.exr", "compare", work / "absent.exr", good)
 expect(1, "text.exr", "compare", work / "text.exr", work / "text.exr")

@@ -4,73 +4,14 @@
 
 #include <cmath>
 
+#include "engine/base/error.h"
 #include "engine/base/random.h"
-#include "gi/bake.h"
 #include "gi/surface/swept_boxes.h"
 #include "gi/transport/path_trace/path_trace.h"
-#include "scenes.h"
+#include "volume_scenes.h"
 
 namespace daylit {
 namespace {
-
-/// The quads of a TestScene as one node, and a small plate that moves, at `plate`.
-Scene with_plate(const TestScene& standing_part, const Vec3& plate) {
-    TestScene made;
-    made.scene = standing_part.scene, made.mesh = standing_part.mesh;
-    const std::size_t standing = made.mesh.triangle_count();
-    made.quad(made.add(lambert(Rgb(0.5f))), plate, Vec3(0.1f, 0, 0), Vec3(0, 0.1f, 0));
-    Scene scene = made.scene;
-    for (int node = 0; node < 2; ++node) {
-        Mesh mesh;
-        const std::size_t first = node ? standing : 0, last = node ? made.mesh.triangle_count() : standing;
-        for (std::size_t t = first; t < last; ++t) {
-            Primitive p;
-            p.material = int(made.mesh.materials[t]);
-            p.indices = {0, 1, 2};
-            for (std::size_t k = 3 * t; k < 3 * t + 3; ++k) {
-                p.positions.push_back(made.mesh.positions[made.mesh.indices[k]]);
-                p.normals.push_back(made.mesh.normals[made.mesh.indices[k]]);
-            }
-            mesh.primitives.push_back(p);
-        }
-        scene.meshes.push_back(mesh);
-        scene.order.push_back(int(scene.nodes.size()));
-        scene.nodes.emplace_back();
-        scene.nodes.back().mesh = node;
-        scene.nodes.back().dynamic = node == 1;
-    }
-    return scene;
-}
-
-/// Walls of a closed box whose fronts look inwards.
-TestScene room(const Material& floor, const Material& walls, const Material& side, const Vec3& size) {
-    TestScene made;
-    const std::uint32_t f = made.add(floor), w = made.add(walls), s = made.add(side);
-    const Vec3 x(size.x, 0, 0), y(0, size.y, 0), z(0, 0, size.z), o(0.0f);
-    made.quad(f, o, z, x);      // up
-    made.quad(w, o + y, x, z);  // down
-    made.quad(s, o, y, z);      // +x
-    made.quad(w, o + x, z, y);  // -x
-    made.quad(w, o, x, y);      // +z
-    made.quad(w, o + z, y, x);  // -z
-    return made;
-}
-
-BakeSettings one_hour() {
-    BakeSettings settings;
-    settings.light.sun = SunSource::None;
-    settings.light.sky = SkySource::None;
-    settings.error = 0.1;
-    settings.from_hour = settings.to_hour = 12.0;
-    return settings;
-}
-
-const std::vector<Vec3> kNormals = {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, -1), glm::normalize(Vec3(-1, -2, 1))};
-
-Rgb at(const Baked& baked, const Vec3& place, const Vec3& normal) {
-    const std::vector<Rgb> weights = baked.volume->basis.weights(LightModel(baked.light, {}).scales(12.0, 0.0), 12.0);
-    return VolumeLight(*baked.volume, weights).irradiance(place, normal);
-}
 
 // Every wall emits 50 and reflects half: radiance 100 from everywhere, E = pi 100.
 TEST(VolumeBake, closed_furnace) {
@@ -166,6 +107,73 @@ TEST(VolumeBake, same_volume_for_any_number_of_threads) {
     EXPECT_EQ(one.basis.curves, three.basis.curves);
 }
 
+std::string why_of_volume(const Baked& baked) {
+    for (const PlanItem& item : baked.plan)
+        if (item.part == "volume") return item.why;
+    return {};
+}
+
+// A metre's cube of stone in a lit room, and one of two plates walled up in it.
+TEST(VolumeBake, what_is_inside_of_a_wall_is_lit_as_beside_it) {
+    const Material wall = lambert(Rgb(0.5f), Rgb(50.0f));
+    TestScene made = room(wall, wall, wall, Vec3(4));
+    made.box(0, Vec3(1.5f), Vec3(2.5f));
+    BakeSettings settings = one_hour();
+    settings.parts = {"volume"};
+    const Baked baked = bake(with_plates(made, {Vec3(1, 3, 1), Vec3(2)}), settings);
+    ASSERT_TRUE(baked.volume);
+    EXPECT_NE(why_of_volume(baked).find("'node 2' rests inside of something solid"), std::string::npos);
+    EXPECT_EQ(why_of_volume(baked).find("'node 1'"), std::string::npos);
+    // As in the furnace, which the cube is a part of.
+    for (const Vec3& n : kNormals) EXPECT_NEAR(at(baked, Vec3(2), n).g, kPi * 100.0, 0.1 * kPi * 100.0);
+}
+
+TEST(VolumeBake, is_left_out_where_no_free_space_is_reached) {
+    TestScene made = room(lambert(Rgb(0.5f)), lambert(Rgb(0.5f)), lambert(Rgb(0.5f)), Vec3(4));
+    made.box(0, Vec3(1.5f), Vec3(2.5f));
+    BakeSettings settings = one_hour();
+    settings.parts = {"volume"};
+    const Baked baked = bake(with_plate(made, Vec3(2)), settings);
+    EXPECT_FALSE(baked.volume);
+    EXPECT_NE(why_of_volume(baked).find("no free space"), std::string::npos);
+}
+
+TEST(VolumeBake, levels_that_cannot_be_afforded_are_refused) {
+    const Scene scene = with_plate(room(lambert(Rgb(0.5f)), lambert(Rgb(0.5f)), lambert(Rgb(0.5f)), Vec3(2)), Vec3(1));
+    const auto refusal = [&](const VolumeSettings& volume) -> std::string {
+        BakeSettings settings = one_hour();
+        settings.error = 1.0, settings.parts = {"volume"}, settings.volume = volume;
+        try {
+            bake(scene, settings);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return {};
+    };
+    EXPECT_NE(refusal({.min_level = 20}).find("--volume-min-level: asks for"), std::string::npos);
+    EXPECT_NE(refusal({.min_level = 20}).find(" GB; a bake may use 4 GB: give "), std::string::npos);
+    EXPECT_NE(refusal({.most_cells = 1000000000}).find("--volume-cells: asks for 1e+09 cells"), std::string::npos);
+    EXPECT_EQ(refusal({.max_level = 0}), "");
+    EXPECT_EQ(refusal({.max_level = 20}), "");  // the number of cells ends it
+}
+
+TEST(VolumeBake, oats_controls_split_cells) {
+    const Scene scene =
+        with_plate(room(lambert(Rgb(0.5f), Rgb(50.0f)), lambert(Rgb(0.5f)), lambert(Rgb(0.2f)), Vec3(2)), Vec3(1));
+    const auto cells = [&](VolumeSettings volume) {
+        BakeSettings settings = one_hour();
+        volume.error = 1.0f, volume.most_cells = 4000;
+        settings.error = 1.0, settings.parts = {"volume"}, settings.volume = volume;
+        return bake(scene, settings).volume->tree.cells.size();
+    };
+    const std::size_t roots = cells({.max_level = 0});
+    EXPECT_GE(roots, 512u);                                     // and those that reach over the walls
+    EXPECT_GT(cells({.min_level = 1, .max_level = 1}), 4000u);  // the budget, which what is asked for may exceed
+    EXPECT_GT(cells({.max_level = 1, .change = 0.05f}), roots);
+    EXPECT_GT(cells({.max_level = 1, .harmonic_mean = 1.5f}), roots);
+    EXPECT_GT(cells({.max_level = 1, .geometry_level = 1}), roots);
+}
+
 TEST(VolumeBake, is_left_out_with_a_reason_where_nothing_moves) {
     Scene scene = with_plate(room(lambert(Rgb(0.5f)), lambert(Rgb(0.5f)), lambert(Rgb(0.5f)), Vec3(2)), Vec3(1));
     scene.nodes[1].dynamic = false;
@@ -173,11 +181,7 @@ TEST(VolumeBake, is_left_out_with_a_reason_where_nothing_moves) {
     settings.error = 1.0;
     const Baked baked = bake(scene, settings);
     EXPECT_FALSE(baked.volume);
-    for (const PlanItem& item : baked.plan) {
-        if (item.part == "volume") {
-            EXPECT_EQ(item.why, "no dynamic node");
-        }
-    }
+    EXPECT_EQ(why_of_volume(baked), "no dynamic node");
 }
 
 TEST(SweptBoxes, follow_what_is_animated) {

@@ -33,7 +33,7 @@ IrradianceVolume volume_of(const Vec3& origin, const std::array<int, 3>& size, c
         for (std::uint32_t s = 0; s < tree.samples; ++s)
             volume.values.push_back(glm::packHalf1x16(float(value(int(s), i / 3, i % 3))));
     volume.changes.assign(3 * volume.values.size(), 0);
-    volume.change_scale.assign(glsl::kVolumeNumbers, 0.0f);
+    volume.change_scale.assign(tree.samples, 0);
     return volume;
 }
 

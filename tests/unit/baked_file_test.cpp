@@ -250,7 +250,7 @@ TEST_F(BakedFile, ImpossibleContentsAreRefused) {
     expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->tree.nodes[1] = 0; });
     expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->values.pop_back(); });
     expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->values[5] = 0x7C00; });
-    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->change_scale[5] = INFINITY; });
+    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->change_scale[5] = 0x7C00; });
     expect_refused([](Baked& b) { b.light.turbidity = INFINITY; });
     expect_refused([](Baked& b) { b.light.sky = SkySource(200); });
 }
