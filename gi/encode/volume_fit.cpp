@@ -13,6 +13,8 @@ constexpr double kLeft = 1e-6;          // of the squared residual of zero, wher
 constexpr std::size_t kColumns = 64;    // solved together
 constexpr float kMostOfChange = 0.25f;  // weight of a change that rays told, against a value: silhouettes are not in it
 constexpr double kDarkest = 1e-5;       // of the mean brightness: the darkest that errors are relative to
+constexpr float kThinly = 0.3f;         // weight of samples before walls, which tell of a thin layer
+constexpr float kEven = 0.05f;          // of that weight, that nothing changes there
 constexpr float kWeakly = 0.1f;         // weight of guesses, against what was measured
 
 /// Sparse rows: number i of a row counts weight times.
@@ -133,10 +135,10 @@ class Fitter {
                 add_scaled(weights[part], rows_[4 * record_of(cell, corner) + std::size_t(part)], row);
     }
 
-    /// Of a change over this many metres, against its value.
+    /// Of a change over this many metres, against its value. Beside a wall it says nothing about a large cell.
     static float weight_of_change(const VolumeSample& sample, float side) {
-        const float noise = sample.change_noise * side;
-        return noise > 0.0f ? std::min(kMostOfChange, 1.0f / (noise * noise)) : kMostOfChange;
+        const float noise = sample.change_noise * side, near = std::min(1.0f, 2.0f * sample.nearness / side);
+        return near * near * (noise > 0.0f ? std::min(kMostOfChange, 1.0f / (noise * noise)) : kMostOfChange);
     }
 
     void state_corners() {
@@ -179,9 +181,10 @@ class Fitter {
                 if (at.side != cells_.cells[c].side) continue;
                 const VolumeSample& measured = refined_.places.samples[std::size_t(at.sample)];
                 const glsl::VolumeCell& cell = cells_.tree.cells[c];
-                const float weight = importance(measured) * weight_of_change(measured, cell.box.w);
+                const float of_value = kThinly * importance(measured);
+                const float of_change = of_value * weight_of_change(measured, cell.box.w);
                 for (std::size_t part = 0; part < 4; ++part) {
-                    Equation equation{{}, importance(measured), measured.light.data() + part * numbers_, 1.0f};
+                    Equation equation{{}, of_value, measured.light.data() + part * numbers_, 1.0f};
                     for (int corner = 0; corner < 8; ++corner)
                         blend(cell, corner,
                               part == 0 ? glsl::volume_corner_weights(corner, at.t, cell.box.w)
@@ -189,7 +192,7 @@ class Fitter {
                               equation.row);
                     tidy(equation.row);
                     if (part > 0) {  // over the cell's side, as at corners
-                        equation.weight = weight, equation.scale = cell.box.w;
+                        equation.weight = of_change, equation.scale = cell.box.w;
                         for (Entry& e : equation.row) e.weight *= cell.box.w;
                     }
                     equations_.push_back(std::move(equation));
@@ -197,8 +200,8 @@ class Fitter {
             }
     }
 
-    /// What nothing is measured about goes on as before the wall, or is as bright as the nearest measured place of its
-    /// cell.
+    /// What nothing is measured about is even, and as bright as before the wall, or as the nearest measured place of
+    /// its cell.
     void guess_unmeasured() {
         for (std::uint32_t s = 0; s < cells_.samples.size(); ++s) {
             if (measured_[s]) continue;
@@ -208,8 +211,7 @@ class Fitter {
             const float weak = kWeakly * (guess ? importance(*guess) : 1.0f);
             equations_.push_back({{{4 * s, 1.0f}}, weak, guess ? guess->light.data() : nullptr, 1.0f});
             for (std::uint32_t a = 1; a < 4; ++a)
-                equations_.push_back(
-                    {{{4 * s + a, 1.0f}}, weak, before ? before->light.data() + a * numbers_ : nullptr, side_[s]});
+                equations_.push_back({{{4 * s + a, 1.0f}}, kEven * weak, nullptr, 1.0f});
         }
     }
 
