@@ -11,6 +11,7 @@
 #include "demo/progress.h"
 #include "demo/traced_scene.h"
 #include "engine/base/error.h"
+#include "engine/scene/gltf_export.h"
 #include "gi/bake.h"
 
 namespace daylit {
@@ -18,11 +19,12 @@ namespace {
 
 struct BakeOptions {
     SceneOptions scene;
-    std::string output, quality = "preview", parts = "auto", hours = "0-24", every = "5m", directional = "auto";
+    std::string output, export_glb, quality = "preview", parts = "auto", hours = "0-24", every = "5m";
+    std::string directional = "auto";
     double error = 0.0;
     int bounces = 64, threads = 0;
     std::uint64_t seed = 1;
-    bool resume = false, json = false;
+    bool resume = false, keep_uv2 = false, json = false;
     VolumeSettings volume;
 };
 
@@ -111,6 +113,7 @@ BakeSettings settings_from(const BakeOptions& options) {
     settings.error = error_of(options);
     settings.parts = parts_of(options.parts);
     settings.seed = options.seed;
+    settings.keep_uv2 = options.keep_uv2;
     if (options.bounces < 0 || options.bounces > 10000) throw Error("--bounces", "give 0 to 10000");
     settings.bounces = options.bounces;
     read_hours(options, settings);
@@ -119,11 +122,18 @@ BakeSettings settings_from(const BakeOptions& options) {
     return settings;
 }
 
+void write_layout(const Scene& scene, const Baked& baked, const std::string& path) {
+    if (!baked.lightmap) throw Error("--export-glb", "there is no lightmap whose layout could be written");
+    const WorldMesh mesh = world_mesh(scene, pose_scene(scene), Part::Static);
+    export_glb(scene, mesh, baked.lightmap->corner_uvs, {baked.lightmap->width, baked.lightmap->height}, path);
+}
+
 void run(const BakeOptions& options) {
     const std::filesystem::path output = options.output.empty()
                                              ? std::filesystem::path(options.scene.scene).replace_extension(".daylit")
                                              : std::filesystem::path(options.output);
     check_output(output.string(), {".daylit"});
+    if (!options.export_glb.empty()) check_output(options.export_glb, {".glb"});
     BakeSettings settings = settings_from(options);
     // Beside the result, so that it lies where there is room and is found again; no glTF or baked file has this name.
     settings.checkpoint = output;
@@ -135,7 +145,9 @@ void run(const BakeOptions& options) {
 
     const auto start = std::chrono::steady_clock::now();
     try {
-        write_baked(output, bake(loaded.scene, settings, make_progress("bake")));
+        const Baked baked = bake(loaded.scene, settings, make_progress("bake"));
+        if (!options.export_glb.empty()) write_layout(loaded.scene, baked, options.export_glb);
+        write_baked(output, baked);
     } catch (const Interrupted&) {
         throw Stopped("stopped; what was traced is kept in " + settings.checkpoint.string() +
                       ", and the same command with --resume goes on from there");
@@ -185,6 +197,14 @@ void add_bake(CLI::App& app) {
         ->capture_default_str();
     command->add_option("--seed", options->seed, "of the random numbers")->group(group)->capture_default_str();
     command->add_option("--threads", options->threads, "0: all cores")->group(group)->capture_default_str();
+    command
+        ->add_flag("--keep-uv2", options->keep_uv2,
+                   "the lightmap's layout is the scene's own TEXCOORD_1, not a new one")
+        ->group(group);
+    command
+        ->add_option("--export-glb", options->export_glb,
+                     "also write the scene with the lightmap's layout as TEXCOORD_1, for other engines")
+        ->group(group);
     command->add_flag("--resume", options->resume, "go on from an interrupted bake")->group(group);
     command->add_flag("--json", options->json, "what was baked, as `info --json`, and the seconds it took")
         ->group(group);

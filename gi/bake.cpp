@@ -90,8 +90,9 @@ std::uint64_t checkpoint_key(const Scene& scene, const WorldMesh& mesh, const Ba
                              const BakeSettings& settings) {
     constexpr std::uint64_t kStage = 2;  // changes whenever what is traced does
     std::uint64_t key = mix64(kStage ^ mix64(geometry_hash(mesh)));
-    for (const std::uint64_t part : {std::uint64_t(plan.texel_budget), std::uint64_t(plan.rays), settings.seed,
-                                     std::uint64_t(settings.lambert), std::bit_cast<std::uint64_t>(settings.unit)})
+    for (const std::uint64_t part :
+         {std::uint64_t(plan.texel_budget), std::uint64_t(plan.rays), settings.seed, std::uint64_t(settings.lambert),
+          std::uint64_t(settings.keep_uv2), std::bit_cast<std::uint64_t>(settings.unit)})
         key = mix64(key ^ part);
     if (std::filesystem::exists(scene.path)) {
         const std::vector<std::uint8_t> file = read_file(scene.path);
@@ -106,7 +107,8 @@ void bake_light(const Scene& scene, const WorldMesh& mesh, std::span<const Place
                 const BakePlan& plan, const BakeSettings& settings, const Progress& progress, Baked& baked) {
     const RayScene rays(scene, mesh);
     const std::vector<Surroundings> around = look_around(rays, even_step(mesh, plan.texel_budget));
-    const Atlas atlas = make_atlas(mesh, plan.texel_budget, around);
+    const KeptLayouts kept = settings.keep_uv2 ? kept_layouts(scene, mesh) : KeptLayouts{};
+    const Atlas atlas = make_atlas(mesh, plan.texel_budget, around, kept);
     const Texels texels = make_texels(mesh, atlas);
     const GatherScene gather = gather_scene(rays, atlas, texels, lamps);
     const GatherSettings how{.rays = plan.rays, .bounces = settings.bounces, .seed = settings.seed};
@@ -132,7 +134,8 @@ void bake_light(const Scene& scene, const WorldMesh& mesh, std::span<const Place
         EncodedLightmap encoded =
             encode_lightmap(std::move(shape), rows, {tilts.row_of_texel, tilts.rows},
                             rows_of_pixels(atlas, texels, rows_of_texels(shown(atlas, texels, hits, open))), {});
-        note(baked.plan, "lightmap", describe(encoded, texels, plan, day, tilts), encoded.error);
+        const std::string layout = kept.note.empty() ? "" : kept.note + "; ";
+        note(baked.plan, "lightmap", layout + describe(encoded, texels, plan, day, tilts), encoded.error);
         baked.lightmap = std::move(encoded.map);
     }
     if (plan.volume) {

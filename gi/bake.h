@@ -22,7 +22,8 @@ struct BakeSettings {
     int bounces = 64;  // at most; ends when the rest no longer counts
     std::uint64_t seed = 1;
     bool directional = true;  // lightmaps hold how light changes as the normal leans, where surfaces have normal maps
-    VolumeSettings volume;           // what is zero in it follows from `error`
+    bool keep_uv2 = false;    // the scene's own TEXCOORD_1 as the lightmap's layout
+    VolumeSettings volume;    // what is zero in it follows from `error`
     std::vector<std::string> parts;  // empty: auto
     /// Where the state of an unfinished bake is kept, for `resume` to go on from; empty: nowhere. Whoever asks for the
     /// bake removes the file once its result is safe.

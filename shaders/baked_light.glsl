@@ -20,7 +20,7 @@ struct TiltedLight {
 // In uniform control flow, since it asks how place and coordinates change from pixel to pixel.
 TiltedLight baked_tilted_light(vec2 lightmap_uv, vec3 place, vec3 surface_normal) {
     vec2 across = dFdx(lightmap_uv), down = dFdy(lightmap_uv);
-    // The direction in which u alone grows, up to its length; none on charts that are one texel wide.
+    // The direction in which u alone grows, up to its length; none where coordinates stand still.
     vec3 u = (dFdx(place) * down.y - dFdy(place) * across.y) * sign(across.x * down.y - across.y * down.x);
     u -= dot(u, surface_normal) * surface_normal;
     float square = dot(u, u);

@@ -104,6 +104,8 @@ void read_textures(File& file, Scene& scene);
 
 // --- gltf_mesh.cpp
 void read_meshes(File& file, Scene& scene);
+/// The file's vertex at each corner of the triangles that read_meshes makes of a primitive; none of other primitives.
+std::vector<std::uint32_t> triangle_corners(File& file, const tinygltf::Primitive& primitive, const std::string& place);
 
 // --- gltf_node.cpp: the tree, cameras, lights, skins, instances, extras.daylit
 SceneExtras read_extras(File& file);

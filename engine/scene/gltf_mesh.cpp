@@ -368,6 +368,13 @@ void even_out_morph_targets(File& file, const tinygltf::Mesh& in, Mesh& mesh, co
 
 }  // namespace
 
+std::vector<std::uint32_t> triangle_corners(File& file, const tinygltf::Primitive& in, const std::string& where) {
+    Source source{file, in, where, 0, {}};
+    if (in.mode < TINYGLTF_MODE_TRIANGLES || source.accessor("POSITION") < 0) return {};
+    source.vertices = check_accessor(file, source.accessor("POSITION"), where).count;
+    return triangle_list(source, read_indices(source));
+}
+
 void read_meshes(File& file, Scene& scene) {
     for (std::size_t m = 0; m < file.model.meshes.size(); ++m) {
         const tinygltf::Mesh& in = file.model.meshes[m];

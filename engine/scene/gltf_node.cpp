@@ -24,6 +24,18 @@ int default_scene(const File& file) {
     return file.model.scenes.empty() ? -1 : 0;
 }
 
+std::optional<glm::ivec2> read_lightmap_size(File& file, const Value& extras) {
+    if (!extras.Has("lightmap")) return {};
+    constexpr int kMost = 1 << 16;
+    const Value& value = extras.Get("lightmap");
+    glm::ivec2 size(0);
+    for (int k = 0; value.IsArray() && value.ArrayLen() == 2 && k < 2; ++k)
+        if (value.Get(std::size_t(k)).IsInt()) size[k] = value.Get(std::size_t(k)).GetNumberAsInt();
+    if (size.x < 1 || size.y < 1 || size.x > kMost || size.y > kMost)
+        file.fail("extras.daylit.lightmap", "must be [width, height] in texels, 1 to 65536 each");
+    return size;
+}
+
 std::optional<Date> read_date(File& file, const Value& extras) {
     if (!extras.Has("date")) return {};
     Date date;
@@ -424,6 +436,7 @@ SceneExtras read_extras(File& file) {
     extras.clouds = number("clouds", 0, 1);
     extras.unit = number("unit", 1e-6, 1e6);
     extras.date = read_date(file, *values);
+    extras.lightmap = read_lightmap_size(file, *values);
     return extras;
 }
 

@@ -50,6 +50,14 @@ struct WorldMesh {
 /// A mirrored node (negative determinant) has its triangles' winding flipped, so that geometric normals stay outward.
 WorldMesh world_mesh(const Scene& scene, const Pose& pose, Part part);
 
+/// Where one copy of a mesh lies in world_mesh(scene, ..., part): its primitives of triangles, one after the other.
+struct PlacedMesh {
+    int node = -1;
+    std::size_t instance = 0;  // of the node
+    std::size_t first_triangle = 0, triangles = 0;
+};
+std::vector<PlacedMesh> placed_meshes(const Scene& scene, Part part);
+
 struct Bounds {
     Vec3 min = Vec3(1e30f), max = Vec3(-1e30f);
     bool empty() const { return min.x > max.x; }

@@ -157,10 +157,11 @@ struct Animation {
 };
 
 /// What the file's scene.extras.daylit says; stands below the command line and above the defaults.
-/// Keys in the file: latitude, longitude, date ("YYYY-MM-DD"), utc_offset, north, turbidity, clouds, unit.
+/// Keys in the file: latitude, longitude, date ("YYYY-MM-DD"), utc_offset, north, turbidity, clouds, unit, lightmap.
 struct SceneExtras {
     std::optional<double> latitude, longitude, utc_offset, north, turbidity, clouds, unit;
     std::optional<Date> date;
+    std::optional<glm::ivec2> lightmap;  // "lightmap": [width, height], texels that TEXCOORD_1 was laid out for
 };
 
 struct Scene {

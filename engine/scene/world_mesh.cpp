@@ -1,4 +1,6 @@
 // Triangles of the posed scene in world space.
+#include <algorithm>
+
 #include "engine/base/vec.h"
 #include "engine/scene/pose.h"
 
@@ -108,16 +110,32 @@ class Builder {
     WorldMesh out_;
 };
 
+bool is_part(const Node& node, Part part) {
+    return node.mesh != -1 && (part == Part::All || node.dynamic == (part == Part::Dynamic));
+}
+
 }  // namespace
 
 WorldMesh world_mesh(const Scene& scene, const Pose& pose, Part part) {
     Builder builder(scene, pose);
+    for (const int n : scene.order)
+        if (is_part(scene.nodes[std::size_t(n)], part)) builder.add_node(n);
+    return builder.take();
+}
+
+std::vector<PlacedMesh> placed_meshes(const Scene& scene, Part part) {
+    std::vector<PlacedMesh> placed;
+    std::size_t triangle = 0;
     for (const int n : scene.order) {
         const Node& node = scene.nodes[std::size_t(n)];
-        const bool wanted = part == Part::All || node.dynamic == (part == Part::Dynamic);
-        if (wanted && node.mesh != -1) builder.add_node(n);
+        if (!is_part(node, part)) continue;
+        std::size_t triangles = 0;
+        for (const Primitive& primitive : scene.meshes[std::size_t(node.mesh)].primitives)
+            if (primitive.topology == Topology::Triangles) triangles += primitive.indices.size() / 3;
+        for (std::size_t i = 0; i < std::max<std::size_t>(node.instances.size(), 1); ++i, triangle += triangles)
+            placed.push_back({n, i, triangle, triangles});
     }
-    return builder.take();
+    return placed;
 }
 
 Bounds bounds(const WorldMesh& mesh) {

@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/baked/integer_coding.h"
 #include "engine/baked/light_basis_bytes.h"
@@ -324,25 +325,31 @@ EncodedLightmap encode_lightmap(DayLightmap map, const LightRows& rows, const Ti
 
 std::vector<std::uint32_t> rows_of_pixels(const Atlas& atlas, const Texels& texels,
                                           std::span<const std::uint32_t> row_of_texel) {
-    std::vector<std::uint32_t> result(std::size_t(atlas.width) * std::size_t(atlas.height), ~0u);
+    const auto row_of_cell = [&](std::size_t chart, std::size_t cell) {
+        const std::uint32_t texel = texels.texel_of_cell[texels.first_cell[chart] + cell];
+        return texel == kNoTexel ? ~0u : row_of_texel[texel];
+    };
+    std::vector<std::vector<std::uint32_t>> nearest(atlas.charts.size());
     tbb::parallel_for(std::size_t(0), atlas.charts.size(), [&](std::size_t id) {
         const PlacedChart& c = atlas.charts[id];
-        const std::uint32_t first = texels.first_cell[id];
-        const auto row_of_cell = [&](std::size_t cell) {
-            const std::uint32_t texel = texels.texel_of_cell[first + cell];
-            return texel == kNoTexel ? ~0u : row_of_texel[texel];
-        };
         std::vector<bool> lit(std::size_t(c.nx) * std::size_t(c.ny));
-        for (std::size_t cell = 0; cell < lit.size(); ++cell) lit[cell] = row_of_cell(cell) != ~0u;
-        const std::vector<std::uint32_t> nearest = nearest_usable(c.nx, c.ny, lit);
+        for (std::size_t cell = 0; cell < lit.size(); ++cell) lit[cell] = row_of_cell(id, cell) != ~0u;
+        nearest[id] = nearest_usable(c.nx, c.ny, lit);
+    });
+    std::vector<std::uint32_t> result(std::size_t(atlas.width) * std::size_t(atlas.height), ~0u);
+    std::vector<int> distance(result.size(), std::numeric_limits<int>::max());  // from the texel that is shown
+    for (std::size_t id = 0; id < atlas.charts.size(); ++id) {
+        const PlacedChart& c = atlas.charts[id];
         for (int y = 0; y < c.atlas_height(); ++y)
             for (int x = 0; x < c.atlas_width(); ++x) {
-                const std::uint32_t from = nearest[std::size_t(std::min(y, c.ny - 1)) * std::size_t(c.nx) +
-                                                   std::size_t(std::min(x, c.nx - 1))];
+                const std::uint32_t from = nearest[id][std::size_t(std::min(y, c.ny - 1)) * std::size_t(c.nx) +
+                                                       std::size_t(std::min(x, c.nx - 1))];
                 if (from == kNoTexel) continue;  // all of it inside solid geometry: black
-                result[std::size_t(c.y + y) * std::size_t(atlas.width) + std::size_t(c.x + x)] = row_of_cell(from);
+                const std::size_t pixel = std::size_t(c.y + y) * std::size_t(atlas.width) + std::size_t(c.x + x);
+                const int away = std::abs(x - int(from) % c.nx) + std::abs(y - int(from) / c.nx);
+                if (away < distance[pixel]) distance[pixel] = away, result[pixel] = row_of_cell(id, from);
             }
-    });
+    }
     return result;
 }
 

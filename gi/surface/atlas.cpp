@@ -22,6 +22,7 @@ constexpr int kMaxSide = 16384, kMaxChartSide = 2048;
                 "the static surfaces need more than 16384 x 16384 texels; bake with a coarser "
                 "--quality or split the scene");
 }
+
 // Light varies along a surface the faster the nearer the surroundings are: its relative gradient is bounded by the mean
 // inverse distance of what is seen (Ward and Heckbert 1992), and along an axis it goes with how fast that changes.
 // Steps go with the fourth root of that rate. Least error relative to local brightness would ask for the square root,
@@ -94,21 +95,30 @@ std::vector<Share> share_out(const WorldMesh& mesh, std::vector<Chart>&& charts,
     return shares;
 }
 
-std::size_t texels_at(const std::vector<Share>& shares, float step) {
+/// Texels of a kept layout: two at least along each side, so that a fetch between them stays inside.
+glm::ivec2 texels_of(const KeptLayout& layout, float step) {
+    if (layout.texels) return glm::max(*layout.texels, 2);
+    const auto along = [&](float size) { return std::clamp(int(std::min(size / step + 0.5f, 1e6f)), 2, kMaxSide); };
+    return {along(layout.metres.x), along(layout.metres.y)};
+}
+
+std::size_t texels_at(const std::vector<Share>& shares, const std::vector<KeptLayout>& kept, float step) {
     std::size_t sum = 0;
     for (const Share& s : shares) sum += std::size_t(s.nx(step)) * std::size_t(s.ny(step));
+    for (const KeptLayout& k : kept) sum += std::size_t(texels_of(k, step).x) * std::size_t(texels_of(k, step).y);
     return sum;
 }
 
 /// The smallest step, within a thousandth, whose texels fit the budget.
-float choose_step(const std::vector<Share>& shares, std::size_t budget) {
+float choose_step(const std::vector<Share>& shares, const std::vector<KeptLayout>& kept, std::size_t budget) {
     float low = 0.0f, high = 0.0f;
+    for (const KeptLayout& k : kept) high = std::max({high, k.metres.x, k.metres.y});
     for (const Share& s : shares) high = std::max({high, s.chart.size.x / s.factor.x, s.chart.size.y / s.factor.y});
-    high = std::max(high, 1e-6f);
+    high = std::max(4.0f * high, 1e-6f);  // where every chart is one texel
     low = 1e-5f * high;
     while (high > 1.001f * low) {
         const float middle = std::sqrt(low * high);
-        (texels_at(shares, middle) <= budget ? high : low) = middle;
+        (texels_at(shares, kept, middle) <= budget ? high : low) = middle;
     }
     return high;
 }
@@ -122,55 +132,99 @@ PlacedChart cut(Share&& share, float step) {
     return placed;
 }
 
+/// What is packed: a kept layout or a chart.
+struct Block {
+    int width = 2, height = 2, x = 0, y = 0;
+};
+
 /// Packs into the given width; the height used, or 0 when it does not fit.
-int pack(std::vector<PlacedChart>& charts, int width) {
+int pack(std::vector<Block>& blocks, int width) {
     std::vector<stbrp_node> nodes(std::size_t(width), stbrp_node{});
-    std::vector<stbrp_rect> rects(charts.size());
-    for (std::size_t i = 0; i < charts.size(); ++i) {
+    std::vector<stbrp_rect> rects(blocks.size());
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
         rects[i] = {};
         rects[i].id = int(i);
-        rects[i].w = charts[i].atlas_width(), rects[i].h = charts[i].atlas_height();
+        rects[i].w = blocks[i].width, rects[i].h = blocks[i].height;
     }
     stbrp_context context;
     stbrp_init_target(&context, width, kMaxSide, nodes.data(), int(nodes.size()));
     if (!stbrp_pack_rects(&context, rects.data(), int(rects.size()))) return 0;
     int height = 1;
     for (const stbrp_rect& r : rects) {
-        charts[std::size_t(r.id)].x = r.x, charts[std::size_t(r.id)].y = r.y;
+        blocks[std::size_t(r.id)].x = r.x, blocks[std::size_t(r.id)].y = r.y;
         height = std::max(height, r.y + r.h);
     }
     return height;
 }
 
-void place(Atlas& atlas) {
+void place(std::vector<Block>& blocks, Atlas& atlas) {
     double area = 0.0;
     int widest = 2;
-    for (const PlacedChart& c : atlas.charts) {
-        area += double(c.atlas_width()) * c.atlas_height();
-        widest = std::max(widest, c.atlas_width());
-    }
-    atlas.width = std::clamp(int(std::ceil(std::sqrt(area) / 4.0)) * 4, widest, kMaxSide);
-    while ((atlas.height = pack(atlas.charts, atlas.width)) == 0) {
-        if (atlas.width == kMaxSide) refuse_size();
+    for (const Block& b : blocks) area += double(b.width) * b.height, widest = std::max(widest, b.width);
+    const int square = int(std::ceil(std::sqrt(area) / 4.0)) * 4;
+    // One layout alone fills the atlas.
+    atlas.width = blocks.size() == 1 ? widest : std::clamp(square, widest, kMaxSide);
+    while (widest > kMaxSide || (atlas.height = pack(blocks, atlas.width)) == 0) {
+        if (atlas.width >= kMaxSide) refuse_size();
         atlas.width = std::min(2 * atlas.width, kMaxSide);
     }
 }
 
-float inset(float grid, int count) {
-    return count == 1 ? 0.5f : std::clamp(grid, kInset, float(count - 1) - kInset);
+/// Its islands as charts whose texels are those of the layout. block: where the layout lies
+void add_kept(const WorldMesh& mesh, const KeptLayout& layout, const Block& block, Atlas& atlas) {
+    const glm::ivec2 texels(block.width, block.height);
+    for (const Chart& island : layout.islands) {
+        PlacedChart placed;
+        placed.chart = island;
+        placed.step = layout.metres / Vec2(texels);
+        Vec2 low(INFINITY), high(-INFINITY);
+        for (const std::uint32_t t : island.triangles)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::size_t corner = 3 * std::size_t(t) + k;
+                const Vec2 share = (mesh.uvs[mesh.indices[corner]][1] - layout.low) / layout.size;
+                const Vec2 grid = glm::clamp(share * Vec2(texels) - 0.5f, Vec2(0.0f), Vec2(texels - 1));
+                atlas.corner_grids[corner] = grid;
+                low = glm::min(low, grid), high = glm::max(high, grid);
+            }
+        const glm::ivec2 first = glm::min(glm::ivec2(low), texels - 2);
+        const glm::ivec2 last = glm::max(glm::ivec2(glm::ceil(high)), first + 1);
+        for (const std::uint32_t t : island.triangles)
+            for (std::size_t k = 0; k < 3; ++k) atlas.corner_grids[3 * std::size_t(t) + k] -= Vec2(first);
+        placed.nx = last.x - first.x + 1, placed.ny = last.y - first.y + 1;
+        placed.x = block.x + first.x, placed.y = block.y + first.y;
+        atlas.charts.push_back(std::move(placed));
+    }
 }
 
-void write_corner_uvs(const WorldMesh& mesh, Atlas& atlas) {
-    atlas.chart_of_triangle.assign(mesh.triangle_count(), kNoChart);
-    atlas.corner_uvs.assign(3 * mesh.triangle_count(), Vec2(0.0f));
+float grid_along(float plane, float step, int count) {
+    return step > 0.0f ? std::clamp(plane / step, 0.0f, float(std::max(count - 1, 1))) : 0.0f;
+}
+
+void add_unwrapped(const WorldMesh& mesh, PlacedChart&& placed, const Block& block, Atlas& atlas) {
+    placed.x = block.x, placed.y = block.y;
+    for (const std::uint32_t t : placed.chart.triangles)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t corner = 3 * std::size_t(t) + k;
+            const Vec2 plane = placed.chart.project(mesh.positions[mesh.indices[corner]]);
+            atlas.corner_grids[corner] = {grid_along(plane.x, placed.step.x, placed.nx),
+                                          grid_along(plane.y, placed.step.y, placed.ny)};
+        }
+    atlas.charts.push_back(std::move(placed));
+}
+
+/// Of a single texel, whose copy follows, anywhere between the two: it keeps its area for whoever reads the layout.
+float inset(float grid, int count) {
+    return std::clamp(grid, kInset, float(std::max(count - 1, 1)) - kInset);
+}
+
+void write_corner_uvs(Atlas& atlas) {
     const Vec2 size(float(atlas.width), float(atlas.height));
     for (std::uint32_t id = 0; id < atlas.charts.size(); ++id) {
         const PlacedChart& c = atlas.charts[id];
-        for (std::uint32_t t : c.chart.triangles) {
+        for (const std::uint32_t t : c.chart.triangles) {
             atlas.chart_of_triangle[t] = id;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const std::size_t corner = 3 * std::size_t(t) + k;
-                const Vec2 g = c.grid(c.chart.project(mesh.positions[mesh.indices[corner]]));
+            for (std::size_t corner = 3 * std::size_t(t); corner < 3 * std::size_t(t) + 3; ++corner) {
+                const Vec2& g = atlas.corner_grids[corner];
                 atlas.corner_uvs[corner] =
                     Vec2(float(c.x) + 0.5f + inset(g.x, c.nx), float(c.y) + 0.5f + inset(g.y, c.ny)) / size;
             }
@@ -178,24 +232,20 @@ void write_corner_uvs(const WorldMesh& mesh, Atlas& atlas) {
     }
 }
 
-float grid_along(float plane, float step, int count) {
-    if (count == 1) return 0.0f;
-    return std::clamp(plane / step, 0.0f, float(count - 1));
+/// A size that the file asks for is kept where the budget does not forbid it, else its shape alone.
+std::vector<KeptLayout> within_budget(std::vector<KeptLayout> layouts, std::size_t budget) {
+    constexpr std::size_t kMostTimes = 4;
+    for (KeptLayout& layout : layouts) {
+        if (!layout.texels) continue;
+        const Vec2 texels(*layout.texels);
+        if (std::size_t(layout.texels->x) * std::size_t(layout.texels->y) <= kMostTimes * budget) continue;
+        layout.texels.reset();
+        layout.metres = texels * std::sqrt(layout.metres.x * layout.metres.y / (texels.x * texels.y));
+    }
+    return layouts;
 }
 
 }  // namespace
-
-Vec2 PlacedChart::grid(const Vec2& plane) const {
-    return {grid_along(plane.x, step.x, nx), grid_along(plane.y, step.y, ny)};
-}
-
-int PlacedChart::nearest_x(const Vec2& plane) const {
-    return int(grid(plane).x + 0.5f);
-}
-
-int PlacedChart::nearest_y(const Vec2& plane) const {
-    return int(grid(plane).y + 0.5f);
-}
 
 float even_step(const WorldMesh& mesh, std::size_t texel_budget) {
     double area = 0.0;
@@ -203,18 +253,33 @@ float even_step(const WorldMesh& mesh, std::size_t texel_budget) {
     return float(std::sqrt(area / double(std::max<std::size_t>(texel_budget, 1))));
 }
 
-Atlas make_atlas(const WorldMesh& mesh, std::size_t texel_budget, std::span<const Surroundings> around) {
+Atlas make_atlas(const WorldMesh& mesh, std::size_t texel_budget, std::span<const Surroundings> around,
+                 const KeptLayouts& kept) {
     if (texel_budget > std::size_t(kMaxSide) * kMaxSide) refuse_size();
     const Bounds box = bounds(mesh);
     // Half a texel's width; never so fine that a long sliver takes for ever.
     const float extent = box.empty() ? 1.0f : glm::length(box.max - box.min);
     const float grain = std::max(0.5f * even_step(mesh, texel_budget), std::max(extent / 8192.0f, 1e-9f));
+    std::vector<Share> shares = share_out(mesh, grow_charts(mesh, grain, around, kept.kept), around);
+    const std::vector<KeptLayout> layouts = within_budget(kept.layouts, texel_budget);
+    const float step = choose_step(shares, layouts, texel_budget);
+
+    std::vector<PlacedChart> unwrapped;
+    std::vector<Block> blocks;
+    for (const KeptLayout& k : layouts) blocks.push_back({texels_of(k, step).x, texels_of(k, step).y});
+    for (Share& share : shares) {
+        unwrapped.push_back(cut(std::move(share), step));
+        blocks.push_back({unwrapped.back().atlas_width(), unwrapped.back().atlas_height()});
+    }
     Atlas atlas;
-    std::vector<Share> shares = share_out(mesh, grow_charts(mesh, grain, around), around);
-    const float step = choose_step(shares, texel_budget);
-    for (Share& share : shares) atlas.charts.push_back(cut(std::move(share), step));
-    place(atlas);
-    write_corner_uvs(mesh, atlas);
+    place(blocks, atlas);
+    atlas.chart_of_triangle.assign(mesh.triangle_count(), kNoChart);
+    atlas.corner_grids.assign(3 * mesh.triangle_count(), Vec2(0.0f));
+    atlas.corner_uvs = atlas.corner_grids;
+    for (std::size_t i = 0; i < layouts.size(); ++i) add_kept(mesh, layouts[i], blocks[i], atlas);
+    for (std::size_t i = 0; i < unwrapped.size(); ++i)
+        add_unwrapped(mesh, std::move(unwrapped[i]), blocks[layouts.size() + i], atlas);
+    write_corner_uvs(atlas);
     return atlas;
 }
 

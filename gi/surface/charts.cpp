@@ -179,8 +179,11 @@ std::vector<Facet> facets(const WorldMesh& mesh) {
     return result;
 }
 
-std::vector<Chart> grow_charts(const WorldMesh& mesh, float grain, std::span<const Surroundings> around) {
-    const std::vector<Facet> facet = facets(mesh);
+std::vector<Chart> grow_charts(const WorldMesh& mesh, float grain, std::span<const Surroundings> around,
+                               const std::vector<bool>& left_out) {
+    std::vector<Facet> facet = facets(mesh);
+    for (std::size_t t = 0; t < left_out.size(); ++t)
+        if (left_out[t]) facet[t] = {};
     const auto across = neighbours(mesh, facet);
     std::vector<std::uint32_t> seeds(facet.size());
     std::iota(seeds.begin(), seeds.end(), 0u);

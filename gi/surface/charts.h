@@ -20,10 +20,12 @@ struct Chart {
     Vec2 project(const Vec3& p) const { return {glm::dot(p - origin, axis_u), glm::dot(p - origin, axis_v)}; }
 };
 
-/// Every triangle of positive area lies in exactly one chart; charts are turned to fill their rectangles well.
-/// grain   metres: overlaps narrower than this may go unseen
-/// around  per triangle, or empty: what is hidden, and what has its surroundings much nearer than the seed, stays out
-std::vector<Chart> grow_charts(const WorldMesh& mesh, float grain, std::span<const Surroundings> around = {});
+/// Every triangle of positive area that is not left out has one chart; charts are turned to fill their rectangles well.
+/// grain     metres: overlaps narrower than this may go unseen
+/// around    per triangle, or empty: what is hidden, or much nearer to its surroundings than the seed, stays out
+/// left_out  per triangle, or empty: those that get no chart
+std::vector<Chart> grow_charts(const WorldMesh& mesh, float grain, std::span<const Surroundings> around = {},
+                               const std::vector<bool>& left_out = {});
 
 /// Area of a triangle in square metres and its unit normal by winding; zero and (0,0,0) when it has none.
 struct Facet {

@@ -9,6 +9,13 @@
 
 namespace daylit {
 
+/// The triangle with its corners in counter-clockwise order.
+inline std::array<Vec2, 3> counter_clockwise(std::array<Vec2, 3> p) {
+    const glm::dvec2 e = glm::dvec2(p[1]) - glm::dvec2(p[0]), f = glm::dvec2(p[2]) - glm::dvec2(p[0]);
+    if (e.x * f.y < e.y * f.x) std::swap(p[1], p[2]);
+    return p;
+}
+
 /// Calls cell(x, y), integers, for each cell of size 1 whose centre (x + 0.5, y + 0.5) lies in the counter-clockwise
 /// triangle p, at least `inset` away from its edges (twice the area that the edge and the centre span; negative:
 /// outside counts). Row by row, left to right. cell returns false to stop.

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/vec.h"
 #include "gi/surface/raster.h"
+#include "gi/transport/path_trace/sampling.h"
 
 namespace daylit {
 namespace {
 
-constexpr int kGrid = 4;  // points along each side of a texel
+constexpr int kGrid = 4;               // points along each side of a texel
 constexpr std::size_t kFewPoints = 4;  // a texel with fewer also takes the centroids of triangles too small to be met
 
 /// The points of one chart, sorted by cell.
@@ -18,13 +20,9 @@ struct ChartPoints {
     std::vector<std::vector<TexelPoint>> cells;
 };
 
-/// From the plane to a grid of kGrid x kGrid points a texel, with its origin half a texel outside the chart.
-Vec2 to_points(const PlacedChart& c, const Vec2& plane) {
-    const auto along = [](float p, float step, int count) {
-        const float grid = step > 0.0f ? p / step : 0.0f;
-        return float(kGrid) * (count == 1 ? grid : grid + 0.5f);
-    };
-    return {along(plane.x, c.step.x, c.nx), along(plane.y, c.step.y, c.ny)};
+/// From the chart's grid to one of kGrid x kGrid points a texel, with its origin half a texel outside the chart.
+Vec2 to_points(const PlacedChart& c, const Vec2& grid) {
+    return float(kGrid) * (grid + Vec2(c.nx == 1 ? 0.0f : 0.5f, c.ny == 1 ? 0.0f : 0.5f));
 }
 
 /// Weights of the second and third corner at the centre of cell (x, y) of the point grid.
@@ -36,24 +34,24 @@ Vec2 barycentric(const std::array<Vec2, 3>& p, long x, long y) {
     return {float(b), float(std::clamp((e.x * d.y - e.y * d.x) / area, 0.0, 1.0 - b))};
 }
 
-ChartPoints chart_points(const WorldMesh& mesh, const PlacedChart& c) {
+ChartPoints chart_points(const Atlas& atlas, const PlacedChart& c) {
     ChartPoints result;
     result.cells.resize(std::size_t(c.nx) * std::size_t(c.ny));
     std::vector<bool> taken(result.cells.size() * kGrid * kGrid, false);
     std::vector<std::uint32_t> missed;
     for (std::uint32_t t : c.chart.triangles) {
         std::array<Vec2, 3> p;
-        for (std::size_t k = 0; k < 3; ++k)
-            p[k] = to_points(c, c.chart.project(mesh.positions[mesh.indices[3 * std::size_t(t) + k]]));
+        for (std::size_t k = 0; k < 3; ++k) p[k] = to_points(c, atlas.corner_grids[3 * std::size_t(t) + k]);
         bool met = false;
-        for_cells_inside(p, 0.0, [&](long x, long y) {
+        for_cells_inside(counter_clockwise(p), 0.0, [&](long x, long y) {
             const long cx = x / kGrid, cy = y / kGrid;
             if (x < 0 || y < 0 || cx >= c.nx || cy >= c.ny) return true;
             const std::size_t sub = std::size_t(y) * std::size_t(c.nx) * kGrid + std::size_t(x);
             met = true;
             if (!taken[sub]) {
                 taken[sub] = true;
-                result.cells[std::size_t(cy) * std::size_t(c.nx) + std::size_t(cx)].push_back({t, barycentric(p, x, y)});
+                result.cells[std::size_t(cy) * std::size_t(c.nx) + std::size_t(cx)].push_back(
+                    {t, barycentric(p, x, y)});
             }
             return true;
         });
@@ -61,25 +59,40 @@ ChartPoints chart_points(const WorldMesh& mesh, const PlacedChart& c) {
     }
     for (std::uint32_t t : missed) {
         const TexelPoint centroid{t, Vec2(1.0f / 3.0f)};
-        const Vec2 plane = c.chart.project(position(mesh, centroid));
-        auto& cell = result.cells[std::size_t(c.nearest_y(plane)) * std::size_t(c.nx) + std::size_t(c.nearest_x(plane))];
+        const Vec2 grid = atlas.grid(t, centroid.barycentric);
+        auto& cell = result.cells[std::size_t(c.nearest_y(grid)) * std::size_t(c.nx) + std::size_t(c.nearest_x(grid))];
         if (cell.size() < kFewPoints) cell.push_back(centroid);
     }
     return result;
 }
 
-void add_texel(const WorldMesh& mesh, std::vector<TexelPoint>&& points, std::uint32_t chart, std::uint32_t cell,
-               float width, Texels& texels) {
-    Vec3 place(0.0f), normal(0.0f);
+/// Unit; zero where the triangle has no area in the grid.
+Vec3 growth_of_u(const WorldMesh& mesh, const Atlas& atlas, std::uint32_t triangle) {
+    const std::uint32_t* corner = &mesh.indices[3 * std::size_t(triangle)];
+    const Vec2* grid = &atlas.corner_grids[3 * std::size_t(triangle)];
+    const glm::dvec3 a = mesh.positions[corner[0]], e = glm::dvec3(mesh.positions[corner[1]]) - a,
+                     f = glm::dvec3(mesh.positions[corner[2]]) - a;
+    const glm::dvec2 d = grid[1] - grid[0], g = grid[2] - grid[0];
+    const double twice = d.x * g.y - d.y * g.x;
+    if (twice == 0.0) return Vec3(0.0f);
+    return unit_or(Vec3((twice < 0.0 ? -1.0 : 1.0) * (g.y * e - d.y * f)), Vec3(0.0f));
+}
+
+void add_texel(const WorldMesh& mesh, const Atlas& atlas, std::vector<TexelPoint>&& points, std::uint32_t chart,
+               std::uint32_t cell, float width, Texels& texels) {
+    Vec3 place(0.0f), normal(0.0f), along_u(0.0f);
     for (const TexelPoint& p : points) {
         place += position(mesh, p) / float(points.size());
         normal += geometric_normal(mesh, p.triangle);
+        along_u += growth_of_u(mesh, atlas, p.triangle);
     }
+    normal = unit_or(normal, geometric_normal(mesh, points.front().triangle));
     texels.texel_of_cell[cell] = std::uint32_t(texels.count());
     texels.chart.push_back(chart);
     texels.cell.push_back(cell);
     texels.position.push_back(place);
-    texels.normal.push_back(glm::normalize(normal));  // within 37 degrees of the seed's, so never zero
+    texels.normal.push_back(normal);
+    texels.along_u.push_back(unit_or(along_u - glm::dot(along_u, normal) * normal, Frame(normal).x));
     texels.width.push_back(width);
     texels.points.insert(texels.points.end(), points.begin(), points.end());
     texels.first_point.push_back(std::uint32_t(texels.points.size()));
@@ -146,18 +159,18 @@ std::vector<bool> away_from(const Atlas& atlas, const Texels& texels, const std:
     return away;
 }
 
-std::uint32_t Texels::at(const Atlas& atlas, std::uint32_t triangle, const Vec3& p) const {
+std::uint32_t Texels::at(const Atlas& atlas, std::uint32_t triangle, const Vec2& barycentric) const {
     const std::uint32_t id = atlas.chart_of_triangle[triangle];
     if (id == kNoChart) return kNoTexel;
     const PlacedChart& c = atlas.charts[id];
-    const Vec2 plane = c.chart.project(p);
-    return nearest_texel_of_cell[first_cell[id] + std::uint32_t(c.nearest_y(plane) * c.nx + c.nearest_x(plane))];
+    const Vec2 grid = atlas.grid(triangle, barycentric);
+    return nearest_texel_of_cell[first_cell[id] + std::uint32_t(c.nearest_y(grid) * c.nx + c.nearest_x(grid))];
 }
 
 Texels make_texels(const WorldMesh& mesh, const Atlas& atlas) {
     std::vector<ChartPoints> charts(atlas.charts.size());
     tbb::parallel_for(std::size_t(0), charts.size(),
-                      [&](std::size_t id) { charts[id] = chart_points(mesh, atlas.charts[id]); });
+                      [&](std::size_t id) { charts[id] = chart_points(atlas, atlas.charts[id]); });
     Texels texels;
     texels.first_point.push_back(0);
     for (std::uint32_t id = 0; id < charts.size(); ++id) {
@@ -168,7 +181,7 @@ Texels make_texels(const WorldMesh& mesh, const Atlas& atlas) {
         const float width = std::sqrt(std::max(c.step.x, 1e-9f) * std::max(c.step.y, 1e-9f));
         for (std::uint32_t i = 0; i < charts[id].cells.size(); ++i)
             if (!charts[id].cells[i].empty())
-                add_texel(mesh, std::move(charts[id].cells[i]), id, first + i, width, texels);
+                add_texel(mesh, atlas, std::move(charts[id].cells[i]), id, first + i, width, texels);
     }
     texels.first_cell.push_back(std::uint32_t(texels.texel_of_cell.size()));
     fill_nearest(atlas, texels);

@@ -25,14 +25,15 @@ struct Texels {
     std::vector<TexelPoint> points;            // up to 16 a texel, spread over its footprint
     std::vector<Vec3> position;                // mean of its points
     std::vector<Vec3> normal;                  // unit, mean of its points' geometric normals
-    std::vector<float> width;                  // metres: the side of a square as large as a texel of this chart
+    std::vector<Vec3> along_u;  // unit, along the surface: in which the atlas coordinate u grows, v still
+    std::vector<float> width;   // metres: the side of a square as large as a texel of this chart
 
     std::size_t count() const { return chart.size(); }
     std::span<const TexelPoint> points_of(std::size_t texel) const {
         return {points.data() + first_point[texel], first_point[texel + 1] - first_point[texel]};
     }
     /// The texel that a point of a triangle belongs to: its own, or the nearest of the chart that has surface.
-    std::uint32_t at(const Atlas& atlas, std::uint32_t triangle, const Vec3& position) const;
+    std::uint32_t at(const Atlas& atlas, std::uint32_t triangle, const Vec2& barycentric) const;
 
     /// For cells without surface: the nearest texel of the same chart; for the others themselves.
     std::vector<std::uint32_t> nearest_texel_of_cell;

@@ -111,6 +111,13 @@ sound("overlapping charts", level("overlap.glb", quad() * 20 + quad(y=1e-7) * 20
 tiny = [t for i in range(100) for k in range(100) for t in quad(0.02 * i, 0.001 * ((i * 7 + k * 3) % 5), 0.02 * k, 0.001)]
 sound("twenty thousand tiny charts", level("tiny.glb", tiny))
 sound("a second UV set that is out of range", level("uv2.glb", quad(), uv2=(1e30, -7.0)))
+kept = work / "kept.daylit"
+for what, mention, scene in (("out of range", "outside 0 to 1", work / "uv2.glb"),
+                             ("without area", "has a TEXCOORD_1 with area", level("uv2_point.glb", quad(), uv2=(0.5, 0.5))),
+                             ("missing", "has a TEXCOORD_1 with area", floor)):
+    refused(f"a second UV set to keep that is {what}", mention, kept, "bake", scene, "--keep-uv2", "-o", kept, "--error", "1")
+refused("a layout exported without a lightmap", "no lightmap", work / "out.glb", "bake", work / "dynamic.glb", "-o", kept,
+        "--export-glb", work / "out.glb", "--error", "1")
 sound("polar night", floor, "--latitude", "89", "--date", "2026-12-21")
 sound("polar day", floor, "--latitude", "89", "--date", "2026-06-21")
 sound("no light at all", floor, "--sun", "none", "--sky", "none")

@@ -105,19 +105,38 @@ TEST_F(Bake, ClosedFurnace) {
     for (const Lookup& l : found) EXPECT_NEAR(l.irradiance.g, expected, 0.02 * expected);
 }
 
-TEST_F(Bake, SealedRoomStaysBlackUnderTheNoonSun) {
+TEST_F(Bake, SealedRoomStaysBlackAtEveryHour) {
     const Scene scene = made("sealed_room");
-    const Baked baked = bake(scene, quick(12.0));
-    const auto inside = look_up(scene, baked, 12.0, [](const Vec3& p, const Vec3&) {
-        return std::abs(p.x) < 2.05f && std::abs(p.z) < 2.05f && p.y > -0.05f && p.y < 2.65f;
-    });
-    const auto outside =
-        look_up(scene, baked, 12.0, [](const Vec3& p, const Vec3& n) { return n.y > 0.9f && p.y > 2.7f; });
-    ASSERT_GE(inside.size(), 40u);
-    ASSERT_FALSE(outside.empty());
-    for (const Lookup& l : inside)
-        EXPECT_EQ(l.irradiance, Rgb(0.0f)) << l.place.position.x << " " << l.place.position.y;
-    for (const Lookup& l : outside) EXPECT_GT(l.irradiance.g, 1000.0f);
+    BakeSettings settings = quick(0.0);
+    settings.to_hour = 24.0, settings.every_hours = 2.0;
+    const Baked baked = bake(scene, settings);
+    for (double hour = 0.0; hour < 24.0; hour += 0.5) {
+        const auto inside = look_up(scene, baked, hour, [](const Vec3& p, const Vec3&) {
+            return std::abs(p.x) < 2.05f && std::abs(p.z) < 2.05f && p.y > -0.05f && p.y < 2.65f;
+        });
+        ASSERT_GE(inside.size(), 40u);
+        for (const Lookup& l : inside) ASSERT_EQ(l.irradiance, Rgb(0.0f)) << hour << ": " << l.place.position.y;
+        const auto outside =
+            look_up(scene, baked, hour, [](const Vec3& p, const Vec3& n) { return n.y > 0.9f && p.y > 2.7f; });
+        ASSERT_FALSE(outside.empty());
+        for (const Lookup& l : outside) EXPECT_GT(l.irradiance.g, hour > 6.0 && hour < 21.0 ? 1000.0f : 0.0f) << hour;
+    }
+}
+
+TEST_F(Bake, NoLightComesThroughAWallThinnerThanATexel) {
+    const Scene scene = made("thin_wall");  // of 2 cm; the lamp is on its left
+    const Baked baked = bake(scene, quick(22.0));
+    const auto mean_of = [&](float from, float to) {
+        const auto found = look_up(scene, baked, 22.0, [&](const Vec3& p, const Vec3&) {
+            return p.x > from && p.x < to && p.y > -0.05f && p.y < 2.65f && std::abs(p.z) < 2.05f;
+        });
+        EXPECT_GE(found.size(), 20u);
+        double sum = 0.0;
+        for (const Lookup& l : found) sum += luminance(l.irradiance) / double(found.size());
+        return sum;
+    };
+    EXPECT_GT(mean_of(-3.05f, -0.005f), 10.0);
+    EXPECT_EQ(mean_of(0.005f, 3.05f), 0.0);
 }
 
 TEST_F(Bake, LightDoesNotLeakThroughTheWallOfTwoRooms) {

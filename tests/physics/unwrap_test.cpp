@@ -130,7 +130,7 @@ TEST_P(Unwrap, EveryTriangleHasTexelsNearIt) {
     for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
         if (atlas.chart_of_triangle[t] == kNoChart) continue;
         const TexelPoint centroid{t, Vec2(1.0f / 3.0f)};
-        const std::uint32_t texel = texels.at(atlas, t, position(mesh, centroid));
+        const std::uint32_t texel = texels.at(atlas, t, centroid.barycentric);
         ASSERT_NE(texel, kNoTexel);
         EXPECT_EQ(texels.chart[texel], atlas.chart_of_triangle[t]);
         EXPECT_FALSE(texels.points_of(texel).empty());
@@ -155,6 +155,19 @@ TEST(UnwrapBox, ABoxTakesSixCharts) {
         EXPECT_NEAR(c.chart.size.y, 1.0f, 1e-5f);
         EXPECT_EQ(c.nx, 10);
     }
+}
+
+TEST(UnwrapMany, AMillionTinyChartsTakeOneTexelEach) {
+    WorldMesh mesh;
+    for (int i = 0; i < 1000; ++i)
+        for (int k = 0; k < 1000; ++k) {
+            const Vec3 p(0.01f * float(i), 0.0f, 0.01f * float(k));
+            add_triangle(mesh, p, p + Vec3(0, 0, 0.001f), p + Vec3(0.001f, 0, 0));
+        }
+    const Atlas atlas = make_atlas(mesh, 24000);
+    EXPECT_EQ(atlas.charts.size(), 1000000u);
+    EXPECT_LE(std::size_t(atlas.width) * std::size_t(atlas.height), 4200000u);  // two by two, for their fetches
+    EXPECT_EQ(make_texels(mesh, atlas).count(), 1000000u);
 }
 
 // Between plates at distance d, 1 / r = cos / d; its cosine-weighted mean is 2 / (3 d).

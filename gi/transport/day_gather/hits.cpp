@@ -60,8 +60,7 @@ class Tracer {
             hit[j] = kSkyBit | sky_bin(ray.direction);
             good[k] += !met;
             if (!met) continue;
-            const Vec3 place = ray.origin + met->distance * ray.direction;
-            const std::uint32_t texel = scene_.texels.at(scene_.atlas, met->triangle, place);
+            const std::uint32_t texel = scene_.texels.at(scene_.atlas, met->triangle, met->barycentric);
             const bool back = glm::dot(ray.direction, met->normal) > 0.0f;
             good[k] += !back && met->distance > covered;
             hit[j] = texel == kNoTexel ? kNoLight : texel | (back ? kBackBit : 0u);

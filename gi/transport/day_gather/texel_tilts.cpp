@@ -60,11 +60,8 @@ void gather_tilts(const GatherScene& scene, const GatherHits& hits, const DaySol
 }  // namespace
 
 TiltFrame tilt_frame(const GatherScene& scene, std::size_t texel) {
-    const Chart& chart = scene.atlas.charts[scene.texels.chart[texel]].chart;
-    const Vec3 seed = glm::cross(chart.axis_u, chart.axis_v), &n = scene.texels.normal[texel];
-    // On the surface, straight above or below the chart's own direction: the normals are less than 90 degrees apart.
-    const Vec3 u = glm::normalize(chart.axis_u - glm::dot(chart.axis_u, n) / glm::dot(seed, n) * seed);
-    return {u, glm::cross(n, u)};
+    const Vec3& u = scene.texels.along_u[texel];
+    return {u, glm::cross(scene.texels.normal[texel], u)};
 }
 
 std::vector<bool> normal_mapped(const GatherScene& scene) {
