@@ -114,7 +114,7 @@ TEST(Size, ATexelBudgetBeyondAllLimitsIsRefused) {
     EXPECT_THROW(bake(open_box(1.0, Vec3(0.0f)), settings), Error);
 }
 
-// Two rooms with a wall of 5 cm between them: the dim one must not see the lamp of the other, a hundred times as strong.
+// Two rooms with a wall of 5 cm between them: the dim one must not see the lamp of the other, 100 times as strong.
 TEST(ThinWall, TheDarkSideIsTheTruth) {
     Level level;
     const int grey = level.material(Rgb(0.7f));
