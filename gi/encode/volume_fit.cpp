@@ -13,7 +13,6 @@ constexpr double kLeft = 1e-6;          // of the squared residual of zero, wher
 constexpr std::size_t kColumns = 64;    // solved together
 constexpr float kMostOfChange = 0.25f;  // weight of a change that rays told, against a value: silhouettes are not in it
 constexpr double kDarkest = 1e-5;       // of the mean brightness: the darkest that errors are relative to
-constexpr float kThinly = 0.3f;         // weight of samples before walls, which tell of a thin layer
 constexpr float kEven = 0.05f;          // of that weight, that nothing changes there
 constexpr float kWeakly = 0.1f;         // weight of guesses, against what was measured
 
@@ -135,9 +134,14 @@ class Fitter {
                 add_scaled(weights[part], rows_[4 * record_of(cell, corner) + std::size_t(part)], row);
     }
 
+    /// Of what is seen from a sample, in halves of this many metres, at most 1.
+    static float nearness(const VolumeSample& sample, float side) {
+        return std::min(1.0f, 2.0f * sample.nearness / side);
+    }
+
     /// Of a change over this many metres, against its value. Beside a wall it says nothing about a large cell.
     static float weight_of_change(const VolumeSample& sample, float side) {
-        const float noise = sample.change_noise * side, near = std::min(1.0f, 2.0f * sample.nearness / side);
+        const float noise = sample.change_noise * side, near = nearness(sample, side);
         return near * near * (noise > 0.0f ? std::min(kMostOfChange, 1.0f / (noise * noise)) : kMostOfChange);
     }
 
@@ -181,7 +185,8 @@ class Fitter {
                 if (at.side != cells_.cells[c].side) continue;
                 const VolumeSample& measured = refined_.places.samples[std::size_t(at.sample)];
                 const glsl::VolumeCell& cell = cells_.tree.cells[c];
-                const float of_value = kThinly * importance(measured);
+                // It tells of a thin layer, the thinner the larger the cell.
+                const float of_value = nearness(measured, cell.box.w) * importance(measured);
                 const float of_change = of_value * weight_of_change(measured, cell.box.w);
                 for (std::size_t part = 0; part < 4; ++part) {
                     Equation equation{{}, of_value, measured.light.data() + part * numbers_, 1.0f};
