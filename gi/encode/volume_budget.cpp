@@ -10,9 +10,9 @@
 namespace daylit {
 namespace {
 
-// Corners, middles of faces and the centre are sampled, and nearly all are shared with neighbours and children;
+// Corners, middles of faces and the centre are sampled, and most are shared with neighbours and children;
 // measured on the demo level.
-constexpr double kSamplesPerCell = 7.0;
+constexpr double kSamplesPerCell = 8.0;
 
 [[noreturn]] void refuse(const char* option, double cells, double bytes_per_cell, double affordable) {
     char text[200];
