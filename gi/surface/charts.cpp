@@ -19,6 +19,7 @@ constexpr std::uint32_t kNone = ~0u;
 constexpr float kMinCosine = 0.8f;  // of a triangle's normal with the seed's: stretch by projection stays below 1.25
 constexpr std::size_t kTriedEdges = 48;  // directions tried when a chart is turned into its rectangle
 constexpr float kMostDifference = 4.0f;  // of nearness in a chart from its seed's, as a factor
+constexpr float kFlat = 0.996f;  // cosine: without a crease between them, two charts' own noise would show as a seam
 
 /// Vertices at the same place are one vertex, whatever their normals and texture coordinates.
 std::vector<std::uint32_t> weld(const std::vector<Vec3>& positions) {
@@ -160,9 +161,10 @@ void fit_rectangle(const WorldMesh& mesh, Chart& chart) {
 }
 
 /// Whether one density of texels serves both.
-bool alike(const Surroundings& a, const Surroundings& b) {
+/// cosine   between their normals
+bool alike(const Surroundings& a, const Surroundings& b, float cosine) {
     const auto [less, more] = std::minmax(a.nearness, b.nearness);
-    return a.hidden == b.hidden && more <= kMostDifference * less;
+    return a.hidden == b.hidden && (cosine > kFlat || more <= kMostDifference * less);
 }
 
 }  // namespace
@@ -200,9 +202,9 @@ std::vector<Chart> grow_charts(const WorldMesh& mesh, float grain, std::span<con
         chart.origin = corner(mesh, seed, 0);
         std::tie(chart.axis_u, chart.axis_v) = frame(facet[seed].normal);
         const auto try_add = [&](std::uint32_t t) {
-            if (t == kNone || chart_of[t] != kNone || glm::dot(facet[t].normal, facet[seed].normal) < kMinCosine)
-                return;
-            if (!around.empty() && !alike(around[t], around[seed])) return;
+            if (t == kNone || chart_of[t] != kNone) return;
+            const float cosine = glm::dot(facet[t].normal, facet[seed].normal);
+            if (cosine < kMinCosine || (!around.empty() && !alike(around[t], around[seed], cosine))) return;
             std::array<Vec2, 3> p;
             for (std::size_t k = 0; k < 3; ++k) p[k] = chart.project(corner(mesh, t, k));
             if (!taken.take(id, p) && t != seed) return;

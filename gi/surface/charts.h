@@ -22,8 +22,8 @@ struct Chart {
 
 /// Every triangle of positive area that is not left out has one chart; charts are turned to fill their rectangles well.
 /// grain     metres: overlaps narrower than this may go unseen
-/// around    per triangle, or empty: what is hidden, or much nearer to its surroundings than the seed, stays out
-/// left_out  per triangle, or empty: those that get no chart
+/// around    per triangle, or empty: what is hidden stays out; beyond a crease also what is much nearer to its
+/// surroundings left_out  per triangle, or empty: those that get no chart
 std::vector<Chart> grow_charts(const WorldMesh& mesh, float grain, std::span<const Surroundings> around = {},
                                const std::vector<bool>& left_out = {});
 

@@ -9,10 +9,10 @@
 namespace daylit {
 namespace {
 
-constexpr std::size_t kNeighbours = 24;
-constexpr float kSigma = 1.0f;         // of the Gaussian, texels
+constexpr std::size_t kNeighbours = 48;
+constexpr float kSigma = 1.6f;            // of the Gaussian, texels
 constexpr float kSigmaOfNearness = 0.3f;  // and at most this share of the mean distance of what is seen
-constexpr float kReach = 2.5f;         // sigmas
+constexpr float kReach = 2.5f;            // sigmas
 constexpr float kMinCosine = 0.9f;
 constexpr float kPlane = 0.25f;        // texels out of the tangent plane at which the weight falls to 1/e
 constexpr float kSightHeight = 0.25f;  // texels above the surface
@@ -44,16 +44,19 @@ class Neighbourhood {
         const float square = glm::dot(offset, offset);
         const float cosine = glm::dot(texels_.normal[a], texels_.normal[b]);
         if (square > kReach * kReach * sigma * sigma || cosine < kMinCosine) return 0.0f;
-        const float out = std::max(std::abs(glm::dot(offset, texels_.normal[a])), std::abs(glm::dot(offset, texels_.normal[b])));
+        const float out =
+            std::max(std::abs(glm::dot(offset, texels_.normal[a])), std::abs(glm::dot(offset, texels_.normal[b])));
         const float in_plane = out / (kPlane * width);
         if (!sees(a, b)) return 0.0f;
-        return std::exp(-0.5f * square / (sigma * sigma) - in_plane * in_plane) * (cosine - kMinCosine) / (1.0f - kMinCosine);
+        return std::exp(-0.5f * square / (sigma * sigma) - in_plane * in_plane) * (cosine - kMinCosine) /
+               (1.0f - kMinCosine);
     }
 
   private:
     bool sees(std::uint32_t a, std::uint32_t b) const {
         const auto above = [&](std::uint32_t t) {
-            return texels_.position[t] + std::min(kSightHeight * texels_.width[t], 0.3f * nearness_[t]) * texels_.normal[t];
+            return texels_.position[t] +
+                   std::min(kSightHeight * texels_.width[t], 0.3f * nearness_[t]) * texels_.normal[t];
         };
         const Vec3 from = above(a), way = above(b) - from;
         const float length = glm::length(way);
@@ -84,7 +87,8 @@ SmoothingWeights smoothing_weights(const RayScene& rays, const Texels& texels, s
         const std::size_t n = tree.knnSearch(&texels.position[t].x, kNeighbours, ids, squares.data());
         std::sort(ids, ids + n);  // a fixed order of summation
         float sum = 0.0f;
-        for (std::size_t k = 0; k < n; ++k) sum += weight[t * kNeighbours + k] = neighbourhood.weight(std::uint32_t(t), ids[k]);
+        for (std::size_t k = 0; k < n; ++k)
+            sum += weight[t * kNeighbours + k] = neighbourhood.weight(std::uint32_t(t), ids[k]);
         if (sum <= 0.0f) ids[0] = std::uint32_t(t), weight[t * kNeighbours] = sum = 1.0f;  // many at one place
         for (std::size_t k = 0; k < n; ++k) weight[t * kNeighbours + k] /= sum;
     });
