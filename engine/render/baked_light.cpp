@@ -56,6 +56,9 @@ BakedLight::BakedLight(const DayLightmap& lightmap) {
         for (GlTexture& tilt : tilts_) tilt = make_texture_2d(GL_RGBA16F, lightmap.width, lightmap.height);
         tilted_framebuffer_ = make_framebuffer({irradiance_.get(), tilts_[0].get(), tilts_[1].get()});
     }
+    constexpr float kBlack[] = {0.0f, 0.0f, 0.0f, 1.0f};
+    for (GLint buffer = 0; buffer < (tilted ? 3 : 1); ++buffer)  // tiles without light stay so
+        glClearNamedFramebufferfv(tilted ? tilted_framebuffer_.get() : framebuffer_.get(), GL_COLOR, buffer, kBlack);
     map_ = lightmap;
     map_.values = {}, map_.tilts = {}, map_.exponents = {}, map_.corner_uvs = {};
     for (std::uint32_t tile = 0; tile < map_.tile_patterns.size(); ++tile)
@@ -87,18 +90,14 @@ int BakedLight::set_light(const LightScales& scales, double hour, Programs& prog
     glDisable(GL_DEPTH_TEST);
     const auto relight = [&](GLuint framebuffer, const std::vector<std::string>& defines, std::size_t first,
                              std::size_t last) {
-        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-        constexpr float kBlack[] = {0.0f, 0.0f, 0.0f, 1.0f};
-        for (GLint buffer = 0; !lit_ && buffer < (defines.empty() ? 1 : 3); ++buffer)
-            glClearBufferfv(GL_COLOR, buffer, kBlack);  // tiles without light stay so
         if (first == last) return;
+        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
         programs.get("relight.vert", "relight.frag", defines).use();
         glUniform1ui(0, GLuint(first));
         glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(last - first));
     };
-    if (tilted()) relight(tilted_framebuffer_.get(), {"TILTED"}, plain_tiles_, tiles_.size());
-    lit_ = lit_ || tilted();  // all is cleared
     relight(framebuffer_.get(), {}, 0, plain_tiles_);
+    relight(tilted_framebuffer_.get(), {"TILTED"}, plain_tiles_, tiles_.size());
     glEnable(GL_DEPTH_TEST);
     lit_ = true;
     return int(tiles_.size());
