@@ -2,14 +2,16 @@
 
 #include <tbb/parallel_for.h>
 
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "engine/base/error.h"
 
 namespace daylit {
 namespace {
 
-constexpr int kMostSteps = 200;         // of conjugate gradients
-constexpr double kLeft = 1e-6;          // of the squared residual of zero, where steps end
+constexpr double kHeld = 1e-9;          // weight of the start, against all that is said of an unknown
 constexpr std::size_t kColumns = 64;    // solved together
 constexpr float kMostOfChange = 0.25f;  // weight of a change that rays told, against a value: silhouettes are not in it
 constexpr double kDarkest = 1e-5;       // of the mean brightness: the darkest that errors are relative to
@@ -64,6 +66,7 @@ class Fitter {
         state_insides();
         state_before_walls();
         guess_unmeasured();
+        factor();
         VolumeFit result;
         for (const VolumeSample* sample : measured_) result.measured.push_back(sample != nullptr);
         result.records.assign(4 * cells_.samples.size() * numbers_, 0.0f);
@@ -241,92 +244,83 @@ class Fitter {
         return nearest;
     }
 
-    /// Conjugate gradients on the normal equations of numbers [first, last), preconditioned by their diagonal.
+    using Sparse = Eigen::SparseMatrix<double>;
+    using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+    /// The normal equations are those of every number: factored once, their unknowns scaled to a diagonal of one.
+    void factor() {
+        std::vector<Eigen::Triplet<double>> entries;
+        unit_ = Eigen::VectorXd::Zero(Eigen::Index(4 * cells_.samples.size()));
+        for (std::size_t q = 0; q < equations_.size(); ++q) {
+            const double root = std::sqrt(double(equations_[q].weight));
+            for (const Entry& e : equations_[q].row) {
+                entries.emplace_back(int(q), int(e.unknown), root * double(e.weight));
+                unit_[e.unknown] += entries.back().value() * entries.back().value();
+            }
+        }
+        for (double& u : unit_) u = u > 0.0 ? 1.0 / std::sqrt(u) : 0.0;  // 0: nothing is said of it, it stays
+        Sparse stated(Eigen::Index(equations_.size()), unit_.size());
+        stated.setFromTriplets(entries.begin(), entries.end());
+        stated = stated * unit_.asDiagonal();
+        Sparse normal = stated.transpose() * stated;
+        Sparse held(unit_.size(), unit_.size());
+        held.setIdentity();
+        factor_.compute(normal + kHeld * held);
+        if (factor_.info() != Eigen::Success) throw Error("volume", "its samples do not determine its records");
+    }
+
+    /// Of numbers [first, last): least squares, as what is added to the start.
     void solve(std::size_t first, std::size_t last, std::vector<float>& records) const {
-        const std::size_t columns = last - first, unknowns = 4 * cells_.samples.size();
-        std::vector<float> x(unknowns * columns, 0.0f), residual(x.size(), 0.0f), direction, turned(x.size());
-        std::vector<float> asked(x.size(), 0.0f);  // the residual of zero
-        std::vector<float> scale(unknowns, 0.0f), line(columns);
+        const std::size_t columns = last - first;
+        Columns x = Columns::Zero(unit_.size(), Eigen::Index(columns)), left = x;
         start(first, columns, x);
+        Eigen::RowVectorXd line(columns);
         for (const Equation& e : equations_) {
-            for (std::size_t i = 0; i < columns; ++i) line[i] = e.value ? e.scale * e.value[first + i] : 0.0f;
-            for (const Entry& entry : e.row)
-                for (std::size_t i = 0; i < columns; ++i)
-                    asked[entry.unknown * columns + i] += e.weight * entry.weight * line[i];
-            for (const Entry& entry : e.row)
-                for (std::size_t i = 0; i < columns; ++i) line[i] -= entry.weight * x[entry.unknown * columns + i];
-            for (const Entry& entry : e.row) {
-                scale[entry.unknown] += e.weight * entry.weight * entry.weight;
-                for (std::size_t i = 0; i < columns; ++i)
-                    residual[entry.unknown * columns + i] += e.weight * entry.weight * line[i];
-            }
-        }
-        const auto precondition = [&](const std::vector<float>& from) {
-            std::vector<float> to(from);
-            for (std::size_t u = 0; u < unknowns; ++u)
-                for (std::size_t i = 0; i < columns; ++i) to[u * columns + i] /= std::max(scale[u], 1e-30f);
-            return to;
-        };
-        const auto products = [&](const std::vector<float>& a, const std::vector<float>& b) {
-            std::vector<double> sums(columns, 0.0);
-            for (std::size_t u = 0; u < unknowns; ++u)
-                for (std::size_t i = 0; i < columns; ++i)
-                    sums[i] += double(a[u * columns + i]) * double(b[u * columns + i]);
-            return sums;
-        };
-        direction = precondition(residual);
-        std::vector<double> before = products(residual, direction);
-        const std::vector<double> of_zero = products(asked, precondition(asked));
-        const auto solved = [&] {
             for (std::size_t i = 0; i < columns; ++i)
-                if (before[i] > kLeft * of_zero[i]) return false;
-            return true;
-        };
-        for (int step = 0; step < kMostSteps && !solved(); ++step) {
-            std::fill(turned.begin(), turned.end(), 0.0f);
-            for (const Equation& e : equations_) {
-                std::fill(line.begin(), line.end(), 0.0f);
-                for (const Entry& entry : e.row)
-                    for (std::size_t i = 0; i < columns; ++i)
-                        line[i] += entry.weight * direction[entry.unknown * columns + i];
-                for (const Entry& entry : e.row)
-                    for (std::size_t i = 0; i < columns; ++i)
-                        turned[entry.unknown * columns + i] += e.weight * entry.weight * line[i];
-            }
-            const std::vector<double> along = products(direction, turned);
-            std::vector<float> length(columns), keep(columns);
-            for (std::size_t i = 0; i < columns; ++i) length[i] = along[i] > 0.0 ? float(before[i] / along[i]) : 0.0f;
-            for (std::size_t u = 0; u < unknowns; ++u)
-                for (std::size_t i = 0; i < columns; ++i) {
-                    x[u * columns + i] += length[i] * direction[u * columns + i];
-                    residual[u * columns + i] -= length[i] * turned[u * columns + i];
-                }
-            const std::vector<float> scaled = precondition(residual);
-            const std::vector<double> after = products(residual, scaled);
-            for (std::size_t i = 0; i < columns; ++i) keep[i] = before[i] > 0.0 ? float(after[i] / before[i]) : 0.0f;
-            before = after;
-            for (std::size_t u = 0; u < unknowns; ++u)
-                for (std::size_t i = 0; i < columns; ++i)
-                    direction[u * columns + i] = scaled[u * columns + i] + keep[i] * direction[u * columns + i];
+                line[Eigen::Index(i)] = e.value ? double(e.scale) * double(e.value[first + i]) : 0.0;
+            for (const Entry& entry : e.row) line -= double(entry.weight) * x.row(entry.unknown);
+            for (const Entry& entry : e.row) left.row(entry.unknown) += double(e.weight) * double(entry.weight) * line;
         }
-        for (std::size_t u = 0; u < unknowns; ++u)
+        left.array().colwise() *= unit_.array();
+        Columns ordered = factor_.permutationP() * left;
+        substitute(ordered);
+        left = factor_.permutationPinv() * ordered;
+        x += unit_.asDiagonal() * left;
+        for (Eigen::Index u = 0; u < unit_.size(); ++u)
             for (std::size_t i = 0; i < columns; ++i)
-                records[u * numbers_ + first + i] = x[u * columns + i] / (u % 4 == 0 ? 1.0f : side_[u / 4]);
+                records[std::size_t(u) * numbers_ + first + i] =
+                    float(x(u, Eigen::Index(i))) / (u % 4 == 0 ? 1.0f : side_[std::size_t(u / 4)]);
+    }
+
+    /// L D L^T y = y for all columns at once; Eigen's own goes through the factor once a column.
+    void substitute(Columns& y) const {
+        const Sparse& lower = factor_.matrixL().nestedExpression();
+        const auto each_below = [&](Eigen::Index j, const auto& use) {
+            for (Sparse::InnerIterator l(lower, j); l; ++l)
+                if (l.row() > j) use(l.row(), l.value());
+        };
+        for (Eigen::Index j = 0; j < y.rows(); ++j)
+            each_below(j, [&](Eigen::Index i, double l) { y.row(i) -= l * y.row(j); });
+        for (Eigen::Index j = y.rows(); j-- > 0;) {
+            y.row(j) /= factor_.vectorD()[j];
+            each_below(j, [&](Eigen::Index i, double l) { y.row(j) -= l * y.row(i); });
+        }
     }
 
     /// From what was measured at the corners, and the nearest elsewhere.
-    void start(std::size_t first, std::size_t columns, std::vector<float>& x) const {
+    void start(std::size_t first, std::size_t columns, Columns& x) const {
         for (std::size_t s = 0; s < measured_.size(); ++s) {
             if (!measured_[s]) continue;
             // A change that is all noise, as beside a wall, is no place to start at.
             const float certain = side_[s] * weight_of_change(*measured_[s], side_[s]) / kMostOfChange;
             for (std::size_t part = 0; part < 4; ++part)
                 for (std::size_t i = 0; i < columns; ++i)
-                    x[(4 * s + part) * columns + i] =
-                        (part == 0 ? 1.0f : certain) * measured_[s]->light[part * numbers_ + first + i];
+                    x(Eigen::Index(4 * s + part), Eigen::Index(i)) =
+                        double((part == 0 ? 1.0f : certain) * measured_[s]->light[part * numbers_ + first + i]);
         }
         for (const auto& [s, nearest] : guess_)
-            for (std::size_t i = 0; nearest && i < columns; ++i) x[4 * s * columns + i] = nearest->light[first + i];
+            for (std::size_t i = 0; nearest && i < columns; ++i)
+                x(Eigen::Index(4 * s), Eigen::Index(i)) = double(nearest->light[first + i]);
     }
 
     const OctreeCells& cells_;
@@ -338,6 +332,8 @@ class Fitter {
     std::vector<const VolumeSample*> measured_;  // per sampled record; null: not measured
     std::vector<std::pair<std::uint32_t, const VolumeSample*>> guess_;
     std::vector<Equation> equations_;
+    Eigen::VectorXd unit_;  // per unknown: what it is counted in
+    Eigen::SimplicialLDLT<Sparse> factor_;
 };
 
 }  // namespace
