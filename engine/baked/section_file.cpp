@@ -19,7 +19,7 @@ constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kHeaderBytes = 32, kEntryBytes = 48;
 constexpr std::uint32_t kMaxSections = 64;
 constexpr std::uint64_t kMaxSectionBytes = std::uint64_t(1) << 30;
-constexpr int kZstdLevel = 12;
+constexpr int kZstdLevel = 6;
 static_assert(sizeof(SectionEntry) == kEntryBytes);
 
 std::string quoted(const SectionEntry& section) {

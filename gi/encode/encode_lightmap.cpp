@@ -2,14 +2,15 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "engine/baked/integer_coding.h"
 #include "engine/baked/light_basis_bytes.h"
+#include "engine/base/random.h"
 
 namespace daylit {
 namespace {
@@ -20,6 +21,8 @@ using Vector = Eigen::VectorXd;
 // A moment at which a tile is darker than this share of its brightest is judged as if it had that much.
 constexpr double kDarkestMoment = 0.03;
 constexpr Eigen::Index kCheckedEvery = 3;  // texels of a tile on which its error is measured
+constexpr Eigen::Index kMoreVectors = 8;
+constexpr int kSubspaceSteps = 2;
 
 /// What all tiles share.
 struct Judge {
@@ -94,6 +97,14 @@ TileRows tile_rows(const Judge& judge, const DayLightmap& map, std::span<const s
     return result;
 }
 
+template <class Rows>
+Matrix gram_of(const Rows& rows) {
+    Matrix gram = Matrix::Zero(rows.cols(), rows.cols());
+    gram.selfadjointView<Eigen::Lower>().rankUpdate(rows.transpose());
+    gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
+    return gram;
+}
+
 /// Of numbers per channel and moment, the sums over channels.
 template <class Row>
 Vector sum_channels(const Row& row) {
@@ -122,20 +133,41 @@ Matrix moments_of(const Matrix& rows, const Matrix& weights) {
     return result;
 }
 
+struct Principal {
+    Vector values;   // descending
+    Matrix vectors;  // columns
+};
+
+/// The first eigenvectors of a positive matrix, by subspace iteration with some more than are asked for (Halko,
+/// Martinsson and Tropp 2011, 4.5): all of them would take most of an encoder's time.
+Principal principal_vectors(const Matrix& matrix, Eigen::Index count) {
+    const Eigen::Index size = matrix.rows(), kept = std::min(size, count + kMoreVectors);
+    Matrix basis(size, kept);
+    Random random(1, 0, 0);
+    for (double& b : basis.reshaped()) b = double(random.next()) - 0.5;
+    for (int step = 0; step < kSubspaceSteps && kept < size; ++step) {
+        const Matrix turned = matrix * basis;
+        basis = Eigen::HouseholderQR<Matrix>(turned).householderQ() * Matrix::Identity(size, kept);
+    }
+    if (kept == size) basis.setIdentity();
+    const Eigen::SelfAdjointEigenSolver<Matrix> solver(Matrix(basis.transpose() * matrix * basis));
+    return {solver.eigenvalues().reverse(), basis * solver.eigenvectors().rowwise().reverse()};
+}
+
 struct Patterns {
     Matrix values;  // row of TileRows::light x pattern, orthogonal columns
     Matrix light;   // pattern x (channel, component)
 };
 
 /// The first patterns of the tile, as many as keep its worst moment's error below what is asked.
+/// gram   of all rows
 /// seen   what the tile's light is judged against at each moment
-Patterns principal_patterns(const Judge& judge, const TileRows& tile, const Vector& seen,
+Patterns principal_patterns(const Judge& judge, const TileRows& tile, const Matrix& gram, const Vector& seen,
                             const LightmapSettings& settings) {
     const Eigen::Index q = judge.components(), n = tile.light.rows();
-    const Matrix gram = tile.light.transpose() * tile.light;
     Matrix judged = judge.parts;
     for (Eigen::Index m = 0; m < seen.size(); ++m) judged.middleCols(7 * m, 7) /= seen[m];
-    Matrix metric = judged * judged.transpose() / double(seen.size());
+    const Matrix metric = gram_of(judged.transpose()) / double(seen.size());
     // A root by eigenvectors, since few moments leave the metric singular, where Cholesky's breaks down.
     const Eigen::SelfAdjointEigenSolver<Matrix> of_metric(metric);
     const Matrix root =
@@ -144,7 +176,7 @@ Patterns principal_patterns(const Judge& judge, const TileRows& tile, const Vect
     for (Eigen::Index a = 0; a < 3; ++a)
         for (Eigen::Index b = 0; b < 3; ++b)
             turned.block(a * q, b * q, q, q) = root.transpose() * gram.block(a * q, b * q, q, q) * root;
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(turned);
+    const Principal principal = principal_vectors(turned, settings.most_patterns);
 
     Patterns result{Matrix(n, settings.most_patterns), Matrix(settings.most_patterns, 3 * q)};
     Vector left = moment_squares(gram, judge.truth);
@@ -152,12 +184,11 @@ Patterns principal_patterns(const Judge& judge, const TileRows& tile, const Vect
     Eigen::Index count = 0;
     const Eigen::Index most = std::min<Eigen::Index>(settings.most_patterns, std::min(n, 3 * q));
     while (count < most && (left.array() > allowed.array()).any()) {
-        const Eigen::Index at = 3 * q - 1 - count;
-        const double energy = solver.eigenvalues()[at];
-        if (!(energy > 1e-12 * solver.eigenvalues()[3 * q - 1])) break;
+        const double energy = principal.values[count];
+        if (!(energy > 1e-12 * principal.values[0])) break;
         Vector direction(3 * q);
         for (Eigen::Index c = 0; c < 3; ++c)
-            direction.segment(c * q, q) = root * solver.eigenvectors().col(at).segment(c * q, q);
+            direction.segment(c * q, q) = root * principal.vectors.col(count).segment(c * q, q);
         if (direction.sum() < 0.0) direction = -direction;  // the solver's sign is chance
         result.values.col(count) = tile.light * direction;
         result.light.row(count) = (gram * direction / energy).transpose();
@@ -224,13 +255,15 @@ void measure(const Judge& judge, const TileRows& tile, const Vector& seen, Coded
 
 CodedTile encode_tile(const Judge& judge, const TileRows& tile, const LightmapSettings& settings) {
     if (tile.count() == 0 || judge.components() == 0) return {};
-    const Vector squares = moment_squares(tile.texels().transpose() * tile.texels(), judge.truth);
+    Matrix gram = gram_of(tile.texels());
+    const Vector squares = moment_squares(gram, judge.truth);
     Vector seen = (squares / double(3 * tile.count())).cwiseMax(0.0).cwiseSqrt();
     const double brightest = seen.maxCoeff();
     if (!(brightest > 0.0)) return {};
     // Below the darkest row that counts, light is judged as if it had that much.
     seen = seen.cwiseMax(std::max(kDarkestMoment * brightest, double(kDarkestRow) / tile.brightness));
-    const Patterns patterns = principal_patterns(judge, tile, seen, settings);
+    if (tile.tilted) gram += gram_of(tile.light.bottomRows(2 * tile.count()));
+    const Patterns patterns = principal_patterns(judge, tile, gram, seen, settings);
     CodedTile coded = quantise(judge, tile, patterns, seen, settings);
     measure(judge, tile, seen, coded);
     return coded;
