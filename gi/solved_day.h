@@ -1,0 +1,62 @@
+#pragma once
+// The day's light, solved and not yet encoded: where every encoder starts, so that several encodings of one solution
+// can be compared.
+#include "gi/bake_plan.h"
+#include "gi/encode/encode_lightmap.h"
+#include "gi/surface/kept_layout.h"
+#include "gi/transport/day_gather/day_gather.h"
+#include "gi/transport/day_gather/probe_light.h"
+#include "gi/transport/day_gather/texel_tilts.h"
+
+namespace daylit {
+
+/// What is to be baked, and how.
+struct BakeInput {
+    /// The scene must outlive this. throws Error when settings ask for parts that this version does not bake.
+    BakeInput(const Scene& from, const BakeSettings& how);
+
+    const Scene& scene;
+    BakeSettings settings;
+    WorldMesh mesh;  // static
+    std::vector<PlacedLight> lamps;
+    LightModel light;
+    BakePlan plan;
+
+    bool lit() const { return plan.lightmap || plan.volume; }
+};
+
+/// One solution for all parts: light at texels, and what leaves them for probes, at all hours.
+struct SolvedDay {
+    /// The input, which has some part to bake, must outlive this. throws Interrupted when progress says so.
+    SolvedDay(const BakeInput& from, const Progress& progress);
+    SolvedDay(const SolvedDay&) = delete;   // its members refer to each other
+    static constexpr double kShare = 0.85;  // of a bake's progress
+
+    const BakeInput& input;
+    GatherSettings how;
+    RayScene rays;
+    KeptLayouts kept;
+    Atlas atlas;
+    Texels texels;
+    GatherScene gather;
+    GatherHits hits;
+    DaySolution day;
+
+    LeavingLight leaving() const;
+};
+
+/// The uncompressed day lightmap: what lightmap encoders are given.
+struct LightmapRows {
+    DayLightmap shape;  // width, height and corner_uvs alone
+    LightBasis basis;
+    std::vector<Rgb> texels;  // [texel][component], smoothed
+    TexelTilts tilts;
+    std::vector<Moment> moments;
+    std::vector<std::uint32_t> row_of_pixel;  // as encode_lightmap() takes it
+
+    LightRows light() const { return {basis, 1, texels, moments}; }
+};
+/// Takes the solution's texels.
+LightmapRows lightmap_rows(SolvedDay& solved, const StageProgress& progress);
+
+}  // namespace daylit
