@@ -76,24 +76,32 @@ MeshPlace nearest_place(const RayScene& rays, const SurfaceSample& point) {
 
 }  // namespace
 
-std::vector<Rgb> lightmap_irradiance(const DayLightmap& lightmap, const Scene& scene,
-                                     const LightScales& scales, double hour,
-                                     const std::vector<SurfaceSample>& points) {
+std::vector<Vec2> lightmap_uvs(const std::vector<Vec2>& corner_uvs, const Scene& scene,
+                               const std::vector<SurfaceSample>& points) {
     const WorldMesh mesh = world_mesh(scene, pose_scene(scene), Part::Static);
     const RayScene rays(scene, mesh);
-    const std::vector<Rgb> light = lightmap.tile_light(lightmap.basis.weights(scales, hour));
     constexpr float kReach = 1e-4f;  // of the scene's size
     const float reach = kReach * glm::distance(rays.bounds().min, rays.bounds().max);
-    std::vector<Rgb> irradiance(points.size());
+    std::vector<Vec2> uvs(points.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size()), [&](const auto& range) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
             const std::optional<MeshPlace> under = place_under(rays, points[i], reach);
             const MeshPlace place = under ? *under : nearest_place(rays, points[i]);
-            const Vec2* uv = &lightmap.corner_uvs[3 * std::size_t(place.triangle)];
+            const Vec2* uv = &corner_uvs[3 * std::size_t(place.triangle)];
             const Vec2 w = place.barycentric;
-            irradiance[i] = lightmap.irradiance(uv[0] + w.x * (uv[1] - uv[0]) + w.y * (uv[2] - uv[0]), light);
+            uvs[i] = uv[0] + w.x * (uv[1] - uv[0]) + w.y * (uv[2] - uv[0]);
         }
     });
+    return uvs;
+}
+
+std::vector<Rgb> lightmap_irradiance(const DayLightmap& lightmap, const Scene& scene,
+                                     const LightScales& scales, double hour,
+                                     const std::vector<SurfaceSample>& points) {
+    const std::vector<Rgb> light = lightmap.tile_light(lightmap.basis.weights(scales, hour));
+    std::vector<Rgb> irradiance;
+    for (const Vec2& uv : lightmap_uvs(lightmap.corner_uvs, scene, points))
+        irradiance.push_back(lightmap.irradiance(uv, light));
     return irradiance;
 }
 

@@ -7,9 +7,8 @@
 #include "demo/commands.h"
 #include "demo/options.h"
 #include "demo/parse.h"
-#include "demo/progress.h"
-#include "demo/report/page.h"
-#include "demo/report/sweep_runner.h"
+#include "demo/report/pieces.h"
+#include "demo/report/study.h"
 #include "demo/sample_points.h"
 #include "engine/base/error.h"
 #include "engine/base/exposure.h"
@@ -66,21 +65,6 @@ void check_counts(const ReportOptions& options) {
     if (options.picture_spp < 2 || options.picture_spp > 1 << 20) throw Error("--picture-spp", "give 2 to 1048576");
 }
 
-/// The methods asked for; the path tracer is always compared with.
-std::vector<ReportMethod> chosen_methods(const ReportOptions& options, const BakeSettings& base) {
-    std::vector<ReportMethod> methods = report_methods(base), chosen;
-    if (options.methods == "all") return methods;
-    std::string names;
-    for (const ReportMethod& m : methods) names += ", " + m.name;
-    for (const std::string& name : split(options.methods, ',')) {
-        const auto found =
-            std::find_if(methods.begin(), methods.end(), [&](const ReportMethod& m) { return m.name == name; });
-        if (found == methods.end()) throw UsageError("--methods", "'" + name + "' is not one of all" + names);
-        chosen.push_back(*found);
-    }
-    return chosen;
-}
-
 BakeSettings base_settings(const ReportOptions& options, const LoadedScene& loaded, const std::vector<double>& hours) {
     BakeSettings base;
     base.light = loaded.light, base.unit = loaded.unit, base.lambert = loaded.lambert;
@@ -90,6 +74,47 @@ BakeSettings base_settings(const ReportOptions& options, const LoadedScene& load
     base.seed = options.seed;
     if (options.quick) base.from_hour = hours.front(), base.to_hour = hours.back();
     return base;
+}
+
+/// Of the studies, which are about the whole day.
+BakeSettings study_settings(const ReportOptions& options, BakeSettings base) {
+    constexpr double kQuickEvery = 1.0 / 3.0;  // hours
+    base.from_hour = 0.0, base.to_hour = 24.0;
+    if (options.quick) base.every_hours = std::min(base.every_hours, kQuickEvery);
+    return base;
+}
+
+/// What the report is about; the path tracer is always compared with.
+struct Chosen {
+    std::vector<ReportMethod> methods;
+    std::vector<ReportStudy> studies;
+
+    bool wants(bool in_space) const {
+        const auto judged_there = [&](const auto& m) { return m.in_space == in_space; };
+        return std::any_of(methods.begin(), methods.end(), judged_there) ||
+               std::any_of(studies.begin(), studies.end(), judged_there);
+    }
+};
+
+Chosen chosen(const ReportOptions& options, const BakeSettings& base) {
+    const Chosen all{report_methods(base), report_studies(study_settings(options, base))};
+    if (options.methods == "all") return all;
+    Chosen result;
+    std::string names;
+    for (const ReportMethod& m : all.methods) names += ", " + m.name;
+    for (const ReportStudy& s : all.studies) names += ", " + s.name;
+    for (const std::string& name : split(options.methods, ',')) {
+        const auto named = [&](const auto& m) { return m.name == name; };
+        const auto method = std::find_if(all.methods.begin(), all.methods.end(), named);
+        const auto study = std::find_if(all.studies.begin(), all.studies.end(), named);
+        if (method != all.methods.end())
+            result.methods.push_back(*method);
+        else if (study != all.studies.end())
+            result.studies.push_back(*study);
+        else
+            throw UsageError("--methods", "'" + name + "' is not one of all" + names);
+    }
+    return result;
 }
 
 std::vector<ViewAt> views_of(const ReportOptions& options, const LevelAtRest& level, const std::vector<double>& hours) {
@@ -142,39 +167,6 @@ std::string machine() {
     return name + ", " + std::to_string(std::thread::hardware_concurrency()) + " threads";
 }
 
-/// One line of progress over all pieces of a report; finished ones count for nothing.
-class Pieces {
-  public:
-    Pieces(Finished finished, int total)
-        : finished_(std::move(finished)), total_(total), report_(make_progress("report")) {}
-
-    /// The kept piece, or a new one by make(progress), kept.
-    template <class T, class Make>
-    T get(const std::string& name, const Make& make) {
-        if (const auto kept = finished_.find(name)) {
-            ++kept_;
-            return kept->template get<T>();
-        }
-        const Progress progress = [this](double done) { return report_(share(done)); };
-        T piece = make(progress);
-        finished_.keep(name, piece);
-        ++done_;
-        if (!report_(share(0.0))) throw Interrupted();
-        return piece;
-    }
-    const Finished& finished() const { return finished_; }
-    int kept() const { return kept_; }
-    void end() { report_(1.0); }
-
-  private:
-    double share(double done) const {
-        return std::min((double(done_) + done) / double(std::max(total_ - kept_, 1)), 0.999);
-    }
-    Finished finished_;
-    int total_, done_ = 0, kept_ = 0;
-    Progress report_;
-};
-
 /// Path counts that are far from the reference's own.
 std::vector<int> traced_counts(int spp) {
     std::vector<int> counts;
@@ -214,7 +206,7 @@ class ReportMaker {
           picture_hours_(parse_hours("--picture-hours", options.picture_hours)),
           level_(options.scene),
           base_(base_settings(options, level_.loaded, hours_)),
-          methods_(chosen_methods(options, base_)) {
+          chosen_(chosen(options, base_)) {
         if (level_.mesh.triangle_count() == 0)
             throw Error(options.scene.scene, "has no triangles, so there is nothing to light and to report on");
     }
@@ -223,21 +215,19 @@ class ReportMaker {
         frames_ = FrameMaker::open(report_.no_pictures);
         if (!frames_) std::fprintf(stderr, "daylit: no pictures and no frame times: %s\n", report_.no_pictures.c_str());
         const std::vector<ViewAt> views = frames_ ? views_of(options_, level_, picture_hours_) : std::vector<ViewAt>();
-        const auto wants = [&](bool in_space) {
-            return std::any_of(methods_.begin(), methods_.end(),
-                               [&](const ReportMethod& m) { return m.in_space == in_space; });
-        };
-        const int point_sets = wants(false) + wants(true);
-        int total = int(views.size()) + point_sets * (1 + int(traced_counts(options_.spp).size()));
+        const int point_sets = chosen_.wants(false) + chosen_.wants(true);
+        int total =
+            int(views.size() + chosen_.studies.size()) + point_sets * (1 + int(traced_counts(options_.spp).size()));
         if (!views.empty()) total += int(traced_counts(options_.picture_spp).size());
-        for (const ReportMethod& method : methods_) total += int(method.sweep.size());
+        for (const ReportMethod& method : chosen_.methods) total += int(method.sweep.size());
         Pieces pieces(Finished(folder_ / "runs", key_of(options_, base_, level_)), total);
         make_folders();
 
-        find_truth(pieces, views, wants(false), wants(true));
+        find_truth(pieces, views, chosen_.wants(false), chosen_.wants(true));
         const Judges judges{level_, surface_, space_, pictures_, frames_.get(), size_};
         trace(pieces, judges);
-        for (const ReportMethod& method : methods_) sweep(pieces, method, judges);
+        for (const ReportMethod& method : chosen_.methods) sweep(pieces, method, judges);
+        for (const ReportStudy& study : chosen_.studies) carry_out(pieces, study, judges);
         pieces.end();
         if (pieces.kept() > 0)
             std::fprintf(stderr, "daylit: %d of %d pieces were there from before\n", pieces.kept(), total);
@@ -255,9 +245,9 @@ class ReportMaker {
     void find_truth(Pieces& pieces, const std::vector<ViewAt>& views, bool on_surfaces, bool in_space) {
         const auto seed = options_.seed;
         if (on_surfaces)
-            surface_ = point_truth(pieces, level_, "surface",
-                                   sample_surface(level_.rays, level_.pose, options_.points, seed), hours_,
-                                   options_.spp);
+            surface_ =
+                point_truth(pieces, level_, "surface", sample_surface(level_.rays, level_.pose, options_.points, seed),
+                            hours_, options_.spp);
         if (in_space) find_space_truth(pieces);
         for (const ViewAt& view : views) {
             pictures_.push_back(picture_truth(pieces, level_, view, size_, options_.picture_spp));
@@ -317,6 +307,22 @@ class ReportMaker {
         report_.methods.push_back(std::move(reported));
     }
 
+    void carry_out(Pieces& pieces, const ReportStudy& study, const Judges& judges) {
+        const PointTruth& truth = study.in_space ? space_ : surface_;
+        const StudyResult result = pieces.get<StudyResult>(study.name, [&](const Progress& progress) {
+            StudyResult made;
+            try {
+                if (truth.points.empty()) throw Error("not compared", no_space_);
+                made = study.run(judges, progress);
+            } catch (const Error& error) {
+                made.runs = {{.method = study.name, .axis = "base", .name = "base", .failure = error.what()}};
+            }
+            return made;
+        });
+        report_.methods.push_back(
+            {study.name, study.about, study.in_space, false, truth.standard_error, result.runs, result.findings});
+    }
+
     void describe() {
         report_.scene = std::filesystem::path(options_.scene.scene).filename().string();
         report_.machine = machine();
@@ -342,7 +348,7 @@ class ReportMaker {
     std::vector<double> hours_, picture_hours_;
     LevelAtRest level_;
     BakeSettings base_;
-    std::vector<ReportMethod> methods_;
+    Chosen chosen_;
     std::unique_ptr<FrameMaker> frames_;
     PointTruth surface_, space_;
     std::string no_space_;  // why there are no points in space
@@ -354,8 +360,10 @@ nlohmann::json json_of(const Report& report, const std::vector<RunResult>& runs)
     nlohmann::json json = {
         {"scene", report.scene},       {"machine", report.machine},         {"driver", report.driver},
         {"settings", report.settings}, {"no_pictures", report.no_pictures}, {"runs", runs}};
-    for (const ReportedMethod& method : report.methods)
+    for (const ReportedMethod& method : report.methods) {
         json["standard_error"][method.in_space ? "space" : "surface"] = method.standard_error;
+        for (const Finding& finding : method.findings) json["findings"][method.name][finding.key] = finding.value;
+    }
     for (const ReportedPicture& p : report.pictures)
         json["pictures"].push_back(
             {{"view", p.view}, {"hour", p.hour}, {"reference", p.reference}, {"standard_error", p.standard_error}});
@@ -394,7 +402,7 @@ void add_report(CLI::App& app) {
     command->add_option("-o", options->output, "folder for index.html, report.csv, report.json and the pictures")
         ->required();
     command->add_flag("--quick", options->quick, "few points, paths and hours, one small picture")->group(group);
-    command->add_option("--methods", options->methods, "all, or a list of lightmap, volume")
+    command->add_option("--methods", options->methods, "all, or a list of lightmap, volume, encodings")
         ->group(group)
         ->capture_default_str();
     command->add_option("--points", options->points, "places to judge at")->group(group)->capture_default_str();

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "gi/encode/encode_lightmap.h"
 #include "gi/encode/encode_volume.h"
 #include "gi/solved_day.h"
 

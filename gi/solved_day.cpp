@@ -4,6 +4,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/random.h"
+#include "gi/encode/encode_lightmap.h"
 #include "gi/surface/smooth.h"
 #include "gi/surface/surroundings.h"
 

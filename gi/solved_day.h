@@ -1,8 +1,9 @@
 #pragma once
 // The day's light, solved and not yet encoded: where every encoder starts, so that several encodings of one solution
 // can be compared.
+#include "engine/baked/day_lightmap.h"
 #include "gi/bake_plan.h"
-#include "gi/encode/encode_lightmap.h"
+#include "gi/encode/light_rows.h"
 #include "gi/surface/kept_layout.h"
 #include "gi/transport/day_gather/day_gather.h"
 #include "gi/transport/day_gather/probe_light.h"

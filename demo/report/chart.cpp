@@ -24,7 +24,7 @@ bool drawable(const ChartPoint& p) {
 }
 
 /// The chart without what cannot be drawn.
-Chart only_drawable(Chart chart) {
+ScatterChart only_drawable(ScatterChart chart) {
     for (ChartSeries& series : chart.series)
         std::erase_if(series.points, [](const ChartPoint& p) { return !drawable(p); });
     std::erase_if(chart.series, [](const ChartSeries& series) { return series.points.empty(); });
@@ -35,7 +35,7 @@ std::string words(const char* look, double x, double y, const std::string& what,
     return text("<text class=\"%s\" x=\"%.1f\" y=\"%.1f\"%s>", look, x, y, more) + escaped(what) + "</text>\n";
 }
 
-std::string grid(const Chart& chart, const LogScale& x, const LogScale& y) {
+std::string grid(const ScatterChart& chart, const LogScale& x, const LogScale& y) {
     std::string out;
     for (const double tick : x.ticks()) {
         out += text("<line class=\"grid\" x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\"/>\n", x(tick), x(tick), kTop,
@@ -59,7 +59,7 @@ std::string path(const char* look, std::span<const ChartPoint> points, const Log
     return "<path class=\"" + std::string(look) + "\" d=\"" + d + "\"/>\n";
 }
 
-std::string mark(const Chart& chart, const ChartPoint& p, const std::string& look, const LogScale& x,
+std::string mark(const ScatterChart& chart, const ChartPoint& p, const std::string& look, const LogScale& x,
                  const LogScale& y) {
     return text("<circle class=\"%s\" cx=\"%.1f\" cy=\"%.1f\" r=\"4.5\">", look.c_str(), x(p.x), y(p.y)) + "<title>" +
            escaped(p.label + ": " + written(p.y, chart.y_unit) + ", " + written(p.x, chart.x_unit)) +
@@ -91,7 +91,7 @@ class Labels {
     std::vector<Box> taken_;
 };
 
-std::string floor_line(const Chart& chart, const LogScale& y) {
+std::string floor_line(const ScatterChart& chart, const LogScale& y) {
     if (!chart.floor || !(*chart.floor > y.low && *chart.floor < y.high)) return {};
     const double at = y(*chart.floor);
     return text("<line class=\"floor\" x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\"/>\n", kLeft, kWidth - kRight, at,
@@ -167,8 +167,8 @@ LogScale scale_for(std::span<const double> values, double from, double to) {
     return {middle / half, middle * half, from, to};
 }
 
-std::string svg(const Chart& given) {
-    const Chart chart = only_drawable(given);
+std::string svg(const ScatterChart& given) {
+    const ScatterChart chart = only_drawable(given);
     if (chart.series.empty()) return {};
     std::vector<double> xs, ys;
     std::vector<ChartPoint> competing;

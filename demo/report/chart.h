@@ -35,7 +35,7 @@ struct ChartSeries {
     bool competes = true;  // takes part in the Pareto front; else a line to compare with
 };
 
-struct Chart {
+struct ScatterChart {
     std::string title, x_label, y_label;
     Unit x_unit = Unit::Seconds, y_unit = Unit::Share;
     std::vector<ChartSeries> series;
@@ -45,7 +45,7 @@ struct Chart {
 
 /// An <svg> element that is well-formed XML; looks come from the page's style (classes s0, s1 ... front, grid ...).
 /// Points that a logarithmic axis cannot show (zero, not finite) are left out. Empty when nothing is left.
-std::string svg(const Chart& chart);
+std::string svg(const ScatterChart& chart);
 
 /// Text as it stands in XML.
 std::string escaped(const std::string& text);

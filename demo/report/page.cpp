@@ -122,13 +122,17 @@ std::string charts(const Report& report, const ReportedMethod& method) {
          Unit::Share},
         {"Error against look-up time", "look_up_seconds", "one look-up on the CPU", "nrmse", "nrmse", Unit::Seconds,
          Unit::Share},
+        {"Worst hour as displayed against bytes", "file_bytes", "bytes", "displayed_worst", "RMS of sRGB values",
+         Unit::Bytes, Unit::Share},
+        {"Worst sunlit hour as displayed against bytes", "file_bytes", "bytes", "displayed_sunlit",
+         "RMS of sRGB values", Unit::Bytes, Unit::Share},
         {"FLIP against frame time", "frame_seconds", "frame, wall time", "flip_mean", "FLIP", Unit::Seconds,
          Unit::Number},
         {"FLIP against bake time", "bake_seconds", "bake, wall time", "flip_mean", "FLIP", Unit::Seconds, Unit::Number},
     };
     std::string out;
     for (const Kind& kind : kinds) {
-        Chart chart{
+        ScatterChart chart{
             kind.title, kind.x_label, kind.y_label, kind.x_unit, kind.y_unit, series_of(method, kind.x, kind.y), {},
             {}};
         const bool points = kind.y == std::string("nrmse");
@@ -205,6 +209,7 @@ std::string section(const Report& report, const ReportedMethod& method) {
         "<section>\n<h2>" + escaped(method.name) + "</h2>\n<p class=\"soft\">" + escaped(method.about) + "</p>\n";
     if (!method.runs.empty() && !method.runs.front().note.empty())
         out += "<p class=\"soft\">Base: " + escaped(method.runs.front().note) + ".</p>\n";
+    for (const Finding& finding : method.findings) out += "<p>" + escaped(finding.text) + ".</p>\n";
     const std::string drawn = charts(report, method);
     if (!drawn.empty()) out += legend(method) + drawn;
     return out + "<h3>All settings</h3>\n" + table(method.runs, false) + "</section>\n";

@@ -7,11 +7,19 @@
 
 namespace daylit {
 
+/// A sentence with the number that it is about.
+struct Finding {
+    std::string key;  // in JSON
+    double value = 0.0;
+    std::string text;
+};
+
 struct ReportedMethod {
     std::string name, about;
     bool in_space = false, in_pictures = false;
     double standard_error = 0.0;  // of the reference at this method's points
     std::vector<RunResult> runs;  // the first is the base
+    std::vector<Finding> findings = {};
 };
 
 struct ReportedPicture {

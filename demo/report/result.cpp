@@ -11,6 +11,10 @@ constexpr Measure kMeasures[] = {
     {"nrmse", "nrmse", Unit::Share, true, "RMS error at points over the mean of the reference, mean of the hours"},
     {"nrmse_worst", "worst hour", Unit::Share, true, "nrmse of the worst hour"},
     {"bias", "bias", Unit::Share, true, "mean over mean of the reference, less 1; mean of the hours"},
+    {"displayed_worst", "worst hour displayed", Unit::Share, false,
+     "RMS of sRGB values of grey texels at the automatic exposure of the worst hour, against the uncompressed "
+     "lightmap"},
+    {"displayed_sunlit", "sun up", Unit::Share, false, "the same for the worst hour while the sun is up"},
     {"flip_mean", "FLIP", Unit::Number, true, "mean LDR-FLIP of the pictures, 67 pixels per degree"},
     {"flip_worst", "worst FLIP", Unit::Number, false, "mean LDR-FLIP of the worst picture"},
     {"yee_share", "Yee", Unit::Share, true, "pixels whose difference is visible by Yee 2004, of all pictures"},

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "engine/baked/bilinear.h"
+
 namespace daylit {
 namespace {
 
@@ -31,17 +33,6 @@ Rgb relit_tilt(const DayLightmap& map, int x, int y, std::size_t axis, std::span
            pattern_sum(map, x, y, map.tilts.data() + axis * map.texels(), 2 * map.texels(), tile_light);
 }
 
-/// texel(x, y) mixed as a bilinear fetch does.
-template <class Texel>
-Rgb bilinear(const DayLightmap& map, const Vec2& uv, const Texel& texel) {
-    const float x = std::clamp(uv.x * float(map.width) - 0.5f, 0.0f, float(map.width - 1));
-    const float y = std::clamp(uv.y * float(map.height) - 0.5f, 0.0f, float(map.height - 1));
-    const int x0 = int(x), y0 = int(y);
-    const int x1 = std::min(x0 + 1, map.width - 1), y1 = std::min(y0 + 1, map.height - 1);
-    const float fx = x - float(x0), fy = y - float(y0);
-    return glm::mix(glm::mix(texel(x0, y0), texel(x1, y0), fx), glm::mix(texel(x0, y1), texel(x1, y1), fx), fy);
-}
-
 }  // namespace
 
 int DayLightmap::slots() const {
@@ -67,12 +58,12 @@ std::size_t DayLightmap::tile_at(int x, int y) const {
 }
 
 Rgb DayLightmap::irradiance(const Vec2& uv, std::span<const Rgb> tile_light) const {
-    return bilinear(*this, uv, [&](int x, int y) { return relit_texel(*this, x, y, tile_light); });
+    return bilinear(width, height, uv, [&](int x, int y) { return relit_texel(*this, x, y, tile_light); });
 }
 
 Rgb DayLightmap::irradiance(const Vec2& uv, const Vec3& lean, std::span<const Rgb> tile_light) const {
     const auto tilt = [&](std::size_t axis) {
-        return bilinear(*this, uv, [&](int x, int y) { return relit_tilt(*this, x, y, axis, tile_light); });
+        return bilinear(width, height, uv, [&](int x, int y) { return relit_tilt(*this, x, y, axis, tile_light); });
     };
     return glsl::tilted_irradiance(irradiance(uv, tile_light), tilt(0), tilt(1), lean);
 }

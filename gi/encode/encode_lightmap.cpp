@@ -11,6 +11,7 @@
 #include "engine/baked/integer_coding.h"
 #include "engine/baked/light_basis_bytes.h"
 #include "engine/base/random.h"
+#include "gi/encode/judged_basis.h"
 
 namespace daylit {
 namespace {

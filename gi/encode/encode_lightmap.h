@@ -1,7 +1,7 @@
 #pragma once
 // The light of texels over the day as the lightmap that the runtime reads.
 #include "engine/baked/day_lightmap.h"
-#include "gi/encode/judged_basis.h"
+#include "gi/encode/light_rows.h"
 #include "gi/surface/texels.h"
 
 namespace daylit {

@@ -7,6 +7,7 @@
 #include <glm/gtc/packing.hpp>
 #include <map>
 
+#include "gi/encode/judged_basis.h"
 #include "gi/encode/volume_budget.h"
 #include "gi/encode/volume_fit.h"
 #include "gi/surface/swept_boxes.h"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/baked/irradiance_volume.h"
-#include "gi/encode/judged_basis.h"
+#include "gi/encode/light_rows.h"
 #include "gi/encode/volume_refine.h"
 #include "gi/transport/day_gather/probe_light.h"
 

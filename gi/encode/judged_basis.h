@@ -8,11 +8,6 @@
 
 namespace daylit {
 
-struct BasisSettings {
-    double dropped = 5e-4;    // relative error that leaving out components may bring
-    double keyframes = 4e-3;  // relative error, of any moment, that curves between keyframes may bring
-};
-
 /// Rows change from the gather's components to these by `turn`; in these, a row's length is its brightness: the root
 /// mean square, over moments and parts of light, of its light over the exposure.
 struct JudgedBasis {

@@ -27,6 +27,12 @@ struct LightRows {
     const Rgb* row(std::size_t i) const { return rows.data() + i * stride(); }
 };
 
+/// How much of a stored basis may be wrong.
+struct BasisSettings {
+    double dropped = 5e-4;    // relative error that leaving out components may bring
+    double keyframes = 4e-3;  // relative error, of any moment, that curves between keyframes may bring
+};
+
 /// The gather's components and curves.
 LightBasis light_basis(const DayBasisCurves& curves);
 

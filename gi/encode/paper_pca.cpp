@@ -13,8 +13,9 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-constexpr std::size_t kChunk = 2048;      // pixels whose sums belong together, whatever the threads
-constexpr double kLargestHalf = 16384.0;  // far from the end of halves (65504)
+constexpr std::size_t kChunk = 2048;  // pixels whose sums belong together, whatever the threads
+constexpr float kMostHalf = 65504.0f;
+constexpr double kLargestHalf = 16384.0;  // of scores: far from the end of halves
 constexpr double kNothing = 1e-13;        // of the largest variance: what rounding leaves
 
 /// A channel's weights: component x frame.
@@ -68,6 +69,12 @@ Between between(const std::vector<double>& hours, double hour) {
     return {after - 1, after, (hour - hours[after - 1]) / (hours[after] - hours[after - 1])};
 }
 
+std::vector<Rgb> halved(std::vector<Rgb> light) {
+    for (Rgb& e : light)
+        for (int c = 0; c < 3; ++c) e[c] = glm::unpackHalf1x16(glm::packHalf1x16(std::clamp(e[c], 0.0f, kMostHalf)));
+    return light;
+}
+
 }  // namespace
 
 FilmRows FilmRows::only(std::span<const std::size_t> kept) const {
@@ -88,6 +95,15 @@ std::vector<Rgb> FilmRows::frame(std::size_t frame) const {
         for (std::size_t r = 0; r < components; ++r) result[i] += row[r] * scale[r];
     });
     return result;
+}
+
+std::vector<Rgb> FilmRows::played(double hour) const {
+    const Between around = between(hours, hour);
+    std::vector<Rgb> light = halved(frame(around.before));
+    if (around.share == 0.0) return light;
+    const std::vector<Rgb> next = halved(frame(around.after));
+    for (std::size_t i = 0; i < light.size(); ++i) light[i] = glm::mix(light[i], next[i], float(around.share));
+    return light;
 }
 
 PaperPca paper_pca(const FilmRows& film, std::size_t vectors) {
@@ -160,6 +176,13 @@ std::vector<Rgb> PaperPca::light(double hour) const {
             }
         for (std::size_t p = first; p < last; ++p) result[p] = glm::max(result[p], Rgb(0.0f));
     });
+    return result;
+}
+
+PaperPca PaperPca::of(std::span<const std::uint32_t> which) const {
+    PaperPca result{hours, mean, vectors, {}, which.size(), variances};
+    for (std::size_t plane = 0; plane < 3 * count(); ++plane)
+        for (const std::uint32_t pixel : which) result.scores.push_back(scores[plane * pixels + pixel]);
     return result;
 }
 

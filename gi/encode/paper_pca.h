@@ -33,6 +33,11 @@ struct FilmRows {
     FilmRows only(std::span<const std::size_t> frames) const;
     /// One frame of all pixels, lux.
     std::vector<Rgb> frame(std::size_t frame) const;
+    /// As the paper plays a film that is not compressed: frames in half floats, linear between the two around an hour,
+    /// outside them held.
+    std::vector<Rgb> played(double hour) const;
+    /// Of the half floats.
+    double bytes() const { return 6.0 * double(frames()) * double(at.size()); }
 };
 
 /// What such a film is stored as: light(pixel, channel, frame) = mean(frame) + sum over v of score * vector(frame).
@@ -47,6 +52,8 @@ struct PaperPca {
     std::size_t count() const { return hours.empty() ? 0 : vectors.size() / hours.size(); }
     /// Linear between the two frames around an hour, outside them held; never negative. Lux.
     std::vector<Rgb> light(double hour) const;
+    /// Some of its pixels alone.
+    PaperPca of(std::span<const std::uint32_t> which) const;
     /// As a file would hold it.
     Bytes bytes() const;
 };

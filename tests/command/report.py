@@ -25,7 +25,7 @@ def run(*arguments, status=0):
 
 def report(*more, **keywords):
     return run("report", scene, "-o", out, "--quick", "--error", "1", "--points", "20", "--spp", "32", "--hours", "11,12",
-               "--methods", "lightmap", "--size", "64x36", *more, **keywords)
+               "--methods", "lightmap,encodings", "--size", "64x36", *more, **keywords)
 
 
 run("make", "two_rooms", "-o", scene)
@@ -47,6 +47,19 @@ for run_, row in zip(data["runs"], rows):
 base = data["runs"][0]["values"]
 assert 0 < base["nrmse"] < 2 and abs(base["bias"]) < 1 and base["file_bytes"] > 1000 and base["bake_seconds"] > 0
 assert data["standard_error"]["surface"] > 0
+
+# One solution stored several ways: fewer bytes, larger errors; the paper's scheme the better the more vectors it has.
+stored = {run["name"]: run["values"] for run in data["runs"] if run["method"] == "encodings"}
+tiles = [values for name, values in stored.items() if name.startswith("tiles")]
+paper = [stored[f"paper, {vectors} vectors"] for vectors in (5, 10, 20, 40)]
+for finer, coarser in list(zip(tiles, tiles[1:])) + list(zip(paper[1:], paper)):
+    assert finer["file_bytes"] > coarser["file_bytes"] and finer["displayed_worst"] < coarser["displayed_worst"]
+assert stored["all frames"]["displayed_worst"] < 1e-3
+assert all(0 < values["nrmse"] < 2 and abs(values["bias"]) < 1 for values in stored.values())
+found = data["findings"]["encodings"]
+assert found["frames_bytes"] > stored["all frames"]["file_bytes"] > paper[-1]["file_bytes"]
+assert 3 <= found["paper_frames"] and found["paper_over_tiles_bytes"] > 1
+assert "half floats" in text
 
 # Charts, and files that the page shows and that are there.
 svg = "{http://www.w3.org/2000/svg}"

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "demo/report/chart.h"
+#include "demo/report/equal_error.h"
 #include "demo/report/finished.h"
 #include "demo/report/page.h"
 #include "demo/report/spent.h"
@@ -21,6 +22,28 @@ TEST(ParetoFront, KeepsWhatNothingBeats) {
     EXPECT_EQ(pareto_front(points), (std::vector<std::size_t>{1, 2, 0}));
     EXPECT_TRUE(pareto_front({}).empty());
     EXPECT_EQ(pareto_front(std::vector<ChartPoint>{{7, 7, "alone"}}), (std::vector<std::size_t>{0}));
+}
+
+// Errors fall with the cost to the power -1 and -1/2: 100 and 1000 of ours are as good as 10000 and 1000000.
+TEST(EqualError, IsReadOffBetweenPoints) {
+    const std::vector<ChartPoint> ours = {{100, 0.01, ""}, {1000, 0.001, ""}, {2000, 0.5, "beaten"}};
+    const std::vector<ChartPoint> other = {
+        {1e3, 0.0316227766, ""}, {1e5, 0.00316227766, ""}, {1e7, 0.000316227766, ""}};
+    const auto ratio = cost_at_equal_error(ours, other);
+    ASSERT_TRUE(ratio);
+    EXPECT_NEAR(ratio->ratio, std::sqrt(100.0 * 1000.0), 0.1);
+    EXPECT_FALSE(ratio->at_least);
+}
+
+TEST(EqualError, SaysWhatItCanWhereNoErrorIsReachedByBoth) {
+    const std::vector<ChartPoint> ours = {{100, 0.01, ""}, {200, 0.005, ""}}, worse = {{50, 0.9, ""}, {700, 0.02, ""}};
+    const auto ratio = cost_at_equal_error(ours, worse);
+    ASSERT_TRUE(ratio);
+    EXPECT_NEAR(ratio->ratio, 7.0, 1e-9);
+    EXPECT_TRUE(ratio->at_least);
+    EXPECT_FALSE(cost_at_equal_error(worse, ours));
+    EXPECT_FALSE(cost_at_equal_error({}, ours));
+    EXPECT_FALSE(cost_at_equal_error(ours, std::vector<ChartPoint>{{0, 0.1, ""}, {10, NAN, ""}}));
 }
 
 TEST(LogScale, MapsItsEndsAndEqualRatiosToEqualSteps) {
@@ -70,7 +93,7 @@ std::size_t count(const std::string& text, const std::string& part) {
 }
 
 TEST(Chart, DrawsEveryPointThatCanBeDrawnAndMarksTheFront) {
-    Chart chart;
+    ScatterChart chart;
     chart.title = "a < b & \"c\"";
     chart.series = {
         {"rays", {{1, 0.1, "one"}, {2, 0.05, "two"}, {3, 0.2, "worse"}, {0, 1, "zero"}, {1, NAN, "none"}}, true},
@@ -83,7 +106,7 @@ TEST(Chart, DrawsEveryPointThatCanBeDrawnAndMarksTheFront) {
     EXPECT_NE(drawn.find("a &lt; b &amp; &quot;c&quot;"), std::string::npos);
     EXPECT_EQ(drawn.find("nan"), std::string::npos);
     EXPECT_EQ(drawn.find("inf"), std::string::npos);
-    EXPECT_TRUE(svg(Chart{}).empty());
+    EXPECT_TRUE(svg(ScatterChart{}).empty());
 }
 
 TEST(Written, ThreeDigitsAndTheUnit) {

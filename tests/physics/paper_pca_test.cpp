@@ -87,6 +87,14 @@ TEST(PaperPca, is_straight_between_frames_and_held_outside) {
     EXPECT_EQ(pca.light(24.0), pca.light(made.film.hours.back()));
 }
 
+TEST(PaperPca, some_pixels_alone) {
+    const PaperPca pca = paper_pca(film_of({200.0, 90.0}).film, 10);
+    const std::vector<std::uint32_t> which = {2999, 5, 5, 17};
+    const auto all = pca.light(10.0), some = pca.of(which).light(10.0);
+    ASSERT_EQ(some.size(), which.size());
+    for (std::size_t i = 0; i < which.size(); ++i) EXPECT_EQ(some[i], all[which[i]]);
+}
+
 TEST(PaperPca, bytes_are_halves_of_scores_and_floats_of_frames) {
     const Film made = film_of({200.0, 90.0, 30.0});
     EXPECT_EQ(paper_pca(made.film, 2).bytes().size(), 2 * (3 * kPixels * 2) + kFrames * (8 + 4 + 2 * 4));
@@ -129,6 +137,14 @@ TEST(FilmRows, some_frames_alone) {
         EXPECT_EQ(few.hours[k], made.film.hours[kept[k]]);
         EXPECT_EQ(few.frame(k), made.film.frame(kept[k]));
     }
+}
+
+TEST(FilmRows, are_played_straight_from_frame_to_frame) {
+    const Film made = film_of({200.0, 90.0});
+    const auto a = made.film.frame(3), b = made.film.frame(4);
+    const auto between = made.film.played(0.5 * (made.film.hours[3] + made.film.hours[4]));
+    for (std::size_t p = 0; p < kPixels; p += 97) EXPECT_NEAR(between[p].b, 0.5f * (a[p].b + b[p].b), 0.3f);  // halves
+    EXPECT_EQ(made.film.bytes(), 6.0 * kPixels * kFrames);
 }
 
 }  // namespace
