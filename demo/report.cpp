@@ -402,7 +402,7 @@ void add_report(CLI::App& app) {
     command->add_option("-o", options->output, "folder for index.html, report.csv, report.json and the pictures")
         ->required();
     command->add_flag("--quick", options->quick, "few points, paths and hours, one small picture")->group(group);
-    command->add_option("--methods", options->methods, "all, or a list of lightmap, volume, encodings")
+    command->add_option("--methods", options->methods, "all, or a list of lightmap, volume, encodings, whole-day")
         ->group(group)
         ->capture_default_str();
     command->add_option("--points", options->points, "places to judge at")->group(group)->capture_default_str();

@@ -1,6 +1,7 @@
 #include "demo/report/study.h"
 
 #include "demo/report/lightmap_encodings.h"
+#include "demo/report/whole_day.h"
 
 namespace daylit {
 
@@ -31,6 +32,12 @@ std::vector<ReportStudy> report_studies(const BakeSettings& base) {
          false, [base](const Judges& judges, const Progress& progress) {
              return compare_lightmap_encodings(base, judges, progress);
          }});
+    studies.push_back(
+        {"whole-day",
+         "What a whole day costs beside one hour: lightmaps with the same rays per texel, which are traced "
+         "once for all hours.",
+         false,
+         [base](const Judges& judges, const Progress& progress) { return compare_whole_day(base, judges, progress); }});
     return studies;
 }
 

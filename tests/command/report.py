@@ -25,7 +25,7 @@ def run(*arguments, status=0):
 
 def report(*more, **keywords):
     return run("report", scene, "-o", out, "--quick", "--error", "1", "--points", "20", "--spp", "32", "--hours", "11,12",
-               "--methods", "lightmap,encodings", "--size", "64x36", *more, **keywords)
+               "--methods", "lightmap,encodings,whole-day", "--size", "64x36", *more, **keywords)
 
 
 run("make", "two_rooms", "-o", scene)
@@ -60,6 +60,13 @@ found = data["findings"]["encodings"]
 assert found["frames_bytes"] > stored["all frames"]["file_bytes"] > paper[-1]["file_bytes"]
 assert 3 <= found["paper_frames"] and found["paper_over_tiles_bytes"] > 1
 assert "half floats" in text
+
+# A day beside an hour: ratios are those of the rows, and rays are traced once.
+day, one_bounce, hour = (run["values"] for run in data["runs"] if run["method"] == "whole-day")
+for key, what in (("bake_seconds", "wall"), ("bake_processor_seconds", "processor")):
+    ratio = data["findings"]["whole-day"][f"day_over_hour_{what}"]
+    assert abs(ratio - day[key] / one_bounce[key]) < 1e-9 * ratio
+assert "nrmse" not in one_bounce and abs(day["nrmse"] - hour["nrmse"]) < 0.02
 
 # Charts, and files that the page shows and that are there.
 svg = "{http://www.w3.org/2000/svg}"
