@@ -13,16 +13,7 @@ layout(std430, binding = 7) readonly buffer VolumeRecords { vec4 volume_records[
 #define VOLUME_RECORD(i) volume_records[i]
 #include "shaders/shared/volume.h"
 
-// Indirect irradiance in lux at a place, on the two sides of a plane with this unit normal.
-struct TwoSided {
-    vec3 front;
-    vec3 back;
-};
-
-TwoSided two_sided(VolumeSh sh, vec3 normal) {
-    return TwoSided(volume_irradiance(sh, normal, 1.0), volume_irradiance(sh, normal, -1.0));
-}
-
-TwoSided volume_irradiance_at(vec3 place, vec3 normal) {
-    return two_sided(volume_sh(volume_place(place)), normal);
+// Indirect irradiance in lux at a place, on a plane with this unit normal.
+vec3 volume_irradiance_at(vec3 place, vec3 normal) {
+    return volume_irradiance(volume_sh(volume_place(place)), normal, 1.0);
 }

@@ -1,15 +1,14 @@
 #version 450 core
 // World-space triangles to the screen, with the attributes that the program's features need.
 #include "shaders/frame.glsl"
-#ifdef VOLUME
-#include "shaders/baked_volume.glsl"
-#endif
 layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec4 in_tangent;
 layout(location = 3) in vec4 in_uvs;
 layout(location = 4) in vec4 in_color;
 layout(location = 5) in vec2 in_lightmap_uv;
+layout(location = 7) in vec3 in_volume_front;  // indirect irradiance on the two sides
+layout(location = 8) in vec3 in_volume_back;
 
 layout(location = 0) out vec3 v_position;
 layout(location = 1) out vec3 v_normal;
@@ -25,12 +24,9 @@ layout(location = 4) out vec4 v_color;
 #ifdef LIGHTMAP
 layout(location = 5) out vec2 v_lightmap_uv;
 #endif
-#if defined(VOLUME_OBJECT) || defined(VOLUME_VERTEX)
-layout(location = 6) out vec3 v_volume_front;  // indirect irradiance on the two sides
+#if defined(VOLUME) && !defined(VOLUME_PIXEL)
+layout(location = 6) out vec3 v_volume_front;
 layout(location = 7) out vec3 v_volume_back;
-#endif
-#ifdef VOLUME_OBJECT
-uniform vec3 volume_object[kShCoefficients];  // radiance SH in the middle of the thing
 #endif
 
 invariant gl_Position;  // the depth pre-pass computes the same
@@ -51,15 +47,8 @@ void main() {
 #ifdef LIGHTMAP
     v_lightmap_uv = in_lightmap_uv;
 #endif
-#ifdef VOLUME_OBJECT
-    VolumeSh sh;
-    for (int i = 0; i < kShCoefficients; ++i) sh.c[i] = volume_object[i];
-    TwoSided indirect = two_sided(sh, normalize(in_normal));
-#elif defined(VOLUME_VERTEX)
-    TwoSided indirect = volume_irradiance_at(in_position, normalize(in_normal));
-#endif
-#if defined(VOLUME_OBJECT) || defined(VOLUME_VERTEX)
-    v_volume_front = indirect.front;
-    v_volume_back = indirect.back;
+#if defined(VOLUME) && !defined(VOLUME_PIXEL)
+    v_volume_front = in_volume_front;
+    v_volume_back = in_volume_back;
 #endif
 }

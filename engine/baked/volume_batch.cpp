@@ -55,11 +55,26 @@ SumUp best_sum_up() {
 }
 #endif
 
-Rgb shaded(const std::array<float, kRow>& sh, const Vec3& normal) {
+using Row = std::array<float, kRow>;
+
+Rgb coefficient(const Row& sh, std::size_t i) {
+    return {sh[3 * i], sh[3 * i + 1], sh[3 * i + 2]};
+}
+
+Rgb shaded(const Row& sh, const Vec3& normal) {
     const glsl::Sh9 lobe = glsl::sh_irradiance_weights(normal);
     Rgb sum(0.0f);
-    for (std::size_t i = 0; i < 9; ++i) sum += lobe.c[i] * Rgb(sh[3 * i], sh[3 * i + 1], sh[3 * i + 2]);
+    for (std::size_t i = 0; i < 9; ++i) sum += lobe.c[i] * coefficient(sh, i);
     return glm::max(sum, Rgb(0.0f));
+}
+
+/// The first band alone changes its sign from side to side.
+TwoSided shaded_on_both(const Row& sh, const Vec3& normal) {
+    const glsl::Sh9 lobe = glsl::sh_irradiance_weights(normal);
+    Rgb even = lobe.c[0] * coefficient(sh, 0), odd(0.0f);
+    for (std::size_t i = 1; i < 4; ++i) odd += lobe.c[i] * coefficient(sh, i);
+    for (std::size_t i = 4; i < 9; ++i) even += lobe.c[i] * coefficient(sh, i);
+    return {glm::max(even + odd, Rgb(0.0f)), glm::max(even - odd, Rgb(0.0f))};
 }
 
 }  // namespace
@@ -72,7 +87,8 @@ VolumeBatch::VolumeBatch(const VolumeLight& light) : tree_(light.tree()), rows_(
                 records[i][glm::length_t(part)];
 }
 
-void VolumeBatch::irradiance(std::span<const Vec3> places, std::span<const Vec3> normals, std::span<Rgb> out) const {
+template <class Use>
+void VolumeBatch::look_up(std::span<const Vec3> places, const Use& use) const {
     const glsl::VolumeArrays arrays{tree_.grid(), tree_.nodes.data(), tree_.cells.data(), tree_.cuts.data(), nullptr};
     const SumUp sum_up_here = best_sum_up();
     std::array<glsl::VolumePlace, kAtOnce> found;
@@ -90,11 +106,20 @@ void VolumeBatch::irradiance(std::span<const Vec3> places, std::span<const Vec3>
                 corners.record[std::size_t(corner)] = rows_.data() + kRecord * record_of(cell, corner);
                 corners.weights[std::size_t(corner)] = glsl::volume_corner_weights(corner, found[i].t, cell.box.w);
             }
-            std::array<float, kRow> sum;
+            Row sum;
             sum_up_here(corners, sum.data());
-            out[first + i] = shaded(sum, normals[first + i]);
+            use(first + i, sum);
         }
     }
+}
+
+void VolumeBatch::irradiance(std::span<const Vec3> places, std::span<const Vec3> normals, std::span<Rgb> out) const {
+    look_up(places, [&](std::size_t i, const Row& sh) { out[i] = shaded(sh, normals[i]); });
+}
+
+void VolumeBatch::two_sided(std::span<const Vec3> places, std::span<const Vec3> normals,
+                            std::span<TwoSided> out) const {
+    look_up(places, [&](std::size_t i, const Row& sh) { out[i] = shaded_on_both(sh, normals[i]); });
 }
 
 }  // namespace daylit

@@ -3,7 +3,7 @@
 // bind(), and multiplies the irradiance it looks up by albedo / pi.
 #include <optional>
 
-#include "engine/baked/irradiance_volume.h"
+#include "engine/baked/volume_batch.h"
 #include "engine/gl/owners.h"
 
 namespace daylit {
@@ -15,17 +15,22 @@ class BakedVolume {
 
     /// True when set_light() would have work to do.
     bool stale(const LightScales& scales, double hour) const;
-    /// Uploads the records of this moment; does nothing when they are the same as before.
+    /// Works out the records of this moment; does nothing when they are the same as before.
     void set_light(const LightScales& scales, double hour);
-    /// The look-up on the CPU, of the moment last set; null before.
-    const VolumeLight* light() const { return light_ ? &*light_ : nullptr; }
-    /// Binds what the shader reads: uniform block 3 and storage blocks 4 to 7.
-    void bind() const;
+    const VolumeTree& tree() const { return volume_.tree; }
+    /// Look-ups on the CPU, of the moment last set; after set_light().
+    const VolumeLight& light() const { return *light_; }
+    const VolumeBatch& batch();
+    /// Binds what the shader reads: uniform block 3 and storage blocks 4 to 7. Uploads what is not there yet, so a host
+    /// whose shaders look nothing up need not call it.
+    void bind();
 
   private:
     const IrradianceVolume& volume_;
-    std::optional<std::vector<Rgb>> weights_;  // of records_
+    std::optional<std::vector<Rgb>> weights_;  // of light_
     std::optional<VolumeLight> light_;
+    std::optional<VolumeBatch> batch_;  // made when first asked for
+    bool uploaded_ = false;             // records_ are those of light_
     GlBuffer grid_, nodes_, cells_, cuts_, records_;
 };
 

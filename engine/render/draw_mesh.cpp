@@ -1,6 +1,7 @@
 #include "engine/render/draw_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <glm/gtc/packing.hpp>
@@ -134,17 +135,24 @@ DrawMesh build_draw_mesh(const WorldMesh& mesh, const DayLightmap* lightmap, boo
 }
 
 std::vector<Bounds> move_draw_mesh(DrawMesh& mesh, const WorldMesh& moved) {
-    std::vector<bool> changed(mesh.positions.size());
+    std::vector<bool> changed(mesh.positions.size()), turned(mesh.positions.size());
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         const std::uint32_t source = mesh.source[v];
+        const std::array<std::int16_t, 3> normal = std::to_array(mesh.attributes[v].normal);
         changed[v] = mesh.positions[v] != moved.positions[source];
         mesh.positions[v] = moved.positions[source];
         pack_frame(mesh.attributes[v], moved.normals[source], moved.tangents[source]);
+        turned[v] = normal != std::to_array(mesh.attributes[v].normal);
     }
     std::vector<Bounds> boxes;
     for (Cluster& cluster : mesh.clusters) {
         const auto begin = mesh.indices.begin() + long(cluster.first);
-        if (std::none_of(begin, begin + long(cluster.count), [&](std::uint32_t v) { return changed[v]; })) continue;
+        const auto any = [&](const std::vector<bool>& of) {
+            return std::any_of(begin, begin + long(cluster.count), [&](std::uint32_t v) { return of[v]; });
+        };
+        const bool elsewhere = any(changed);
+        if (elsewhere || any(turned)) ++cluster.moves;
+        if (!elsewhere) continue;
         boxes.push_back(cluster.bounds);
         set_bounds(mesh, cluster);
         boxes.push_back(cluster.bounds);

@@ -24,6 +24,7 @@ struct Cluster {
     Bounds bounds;
     std::uint32_t first = 0, count = 0;  // in DrawMesh::indices
     std::uint32_t node = 0;              // whose triangles, where the mesh was built by node
+    std::uint64_t moves = 0;             // so far: times that a place or a normal of it changed
 };
 
 struct Batch {

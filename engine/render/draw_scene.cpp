@@ -23,9 +23,7 @@ std::vector<std::string> FrameDefines::with(std::vector<std::string> own, std::s
     if (lights.lamps != LampBits{}) add(lamps);
     if (volume && part_number == 1) {
         own.push_back("VOLUME");
-        own.push_back(lights.volume.mode == VolumeMode::Object  ? "VOLUME_OBJECT"
-                      : lights.volume.mode == VolumeMode::Pixel ? "VOLUME_PIXEL"
-                                                                : "VOLUME_VERTEX");
+        if (lights.volume_at_pixels) own.push_back("VOLUME_PIXEL");
     }
     return own;
 }
@@ -77,7 +75,7 @@ std::vector<std::pair<Lights, DrawList>> DrawScene::lists_by_lights(const Geomet
         ++count.clusters_drawn;
         Lights lights;
         if (known && !lamp_bits.empty()) lights.lamps = lamp_bits[c];
-        if (!standing) lights.volume = volume_objects.use(c);
+        if (!standing) lights.volume_at_pixels = volume_objects.at_pixels(c);
         const std::uint32_t reached = known && !sun_split.reached.empty() ? sun_split.reached[c] : cluster.count;
         add(lights, cluster.first, reached);
         lights.suns = false;
@@ -195,8 +193,6 @@ DrawCount DrawScene::draw_surfaces(const FrameDefines& frame_defines, const Frus
                     programs.get("surface.vert", "surface.frag", frame_defines.with(own, p, lights));
                 program.use();
                 set_lamp_bits(program, lights.lamps);
-                if (program.has("volume_object"))
-                    program.set("volume_object", std::span<const Vec3>(volume_objects.light(lights.volume.thing).c));
                 Geometry::draw(list);
             }
         }

@@ -27,7 +27,7 @@ using LampBits = std::array<std::uint32_t, 4>;
 struct Lights {
     LampBits lamps = {~0u, ~0u, ~0u, ~0u};
     bool suns = true;
-    VolumeUse volume;  // of what moves
+    bool volume_at_pixels = false;  // of what moves: else it is told at vertices
     bool operator==(const Lights&) const = default;
 };
 

@@ -15,8 +15,9 @@ PassPlan shadow_plan(bool shown, std::size_t sources, bool stale, const char* wh
 }  // namespace
 
 const char* name(PassKind pass) {
-    constexpr std::array<const char*, kPassCount> kNames = {"relight",     "sun shadows", "lamp shadows", "depth",   "surfaces",
-                                                            "volume view", "sky",         "blended",      "resolve", "meter"};
+    constexpr std::array<const char*, kPassCount> kNames = {"relight", "moving light", "sun shadows", "lamp shadows",
+                                                            "depth",   "surfaces",     "volume view", "sky",
+                                                            "blended", "resolve",      "meter"};
     return kNames[std::size_t(pass)];
 }
 
@@ -36,6 +37,11 @@ FramePlan plan_frame(const FrameFacts& f) {
     set(PassKind::Relight, !f.baked                     ? PassPlan{false, "no baked light"}
                            : !shows_baked_light(f.show) ? PassPlan{false, "the layer shows no baked light"}
                                                         : when(f.baked_stale, "the hour moved", "the hour is still"));
+    set(PassKind::MovingLight, !f.volume ? PassPlan{false, "no irradiance volume"}
+                               : !shows_baked_light(f.show)
+                                   ? PassPlan{false, "the layer shows no baked light"}
+                                   : when(f.moving_unlit, "the light or things in view moved",
+                                          "light and things are still, or looked up at pixels"));
     set(PassKind::SunShadows, shadow_plan(straight, f.suns, f.sun_maps_stale, "sun above the horizon", f.any_surface));
     set(PassKind::LampShadows, shadow_plan(straight, f.lamps, f.lamp_maps_stale, "lamps", f.any_surface));
     set(PassKind::Depth, when(f.depth_first && f.any_surface, "hidden pixels would cost their light",

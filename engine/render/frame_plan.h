@@ -9,8 +9,20 @@
 namespace daylit {
 
 /// In the order in which they run.
-enum class PassKind { Relight, SunShadows, LampShadows, Depth, Surfaces, VolumeView, Sky, Blended, Resolve, Meter };
-inline constexpr std::size_t kPassCount = 10;
+enum class PassKind {
+    Relight,
+    MovingLight,
+    SunShadows,
+    LampShadows,
+    Depth,
+    Surfaces,
+    VolumeView,
+    Sky,
+    Blended,
+    Resolve,
+    Meter
+};
+inline constexpr std::size_t kPassCount = 11;
 const char* name(PassKind pass);
 
 /// What the plan depends on.
@@ -18,6 +30,7 @@ struct FrameFacts {
     Layer show = Layer::Final;
     bool baked = false, baked_stale = false;
     bool volume = false, volume_view = false;  // baked; its samples and cells are asked for
+    bool moving_unlit = false;                 // something in view has light from the volume to be looked up
     std::size_t suns = 0, lamps = 0;
     bool sun_maps_stale = false, lamp_maps_stale = false;
     bool any_surface = false, any_through = false;

@@ -7,10 +7,11 @@
 namespace daylit {
 namespace {
 
-void attribute(GLuint array, GLuint index, int count, GLenum type, bool normalised, std::size_t offset) {
+void attribute(GLuint array, GLuint index, int count, GLenum type, bool normalised, std::size_t offset,
+               GLuint binding = 1) {
     glEnableVertexArrayAttrib(array, index);
     glVertexArrayAttribFormat(array, index, count, type, normalised, GLuint(offset));
-    glVertexArrayAttribBinding(array, index, 1);
+    glVertexArrayAttribBinding(array, index, binding);
 }
 
 }  // namespace
@@ -40,6 +41,13 @@ Geometry::Geometry(DrawMesh mesh, bool moves)
 
 void Geometry::use_indices(GLuint buffer) const {
     glVertexArrayElementBuffer(vertex_array_.get(), buffer ? buffer : indices_.get());
+}
+
+void Geometry::use_light(GLuint buffer) const {
+    const GLuint array = vertex_array_.get();
+    glVertexArrayVertexBuffer(array, 2, buffer, 0, 2 * sizeof(Vec3));
+    attribute(array, 7, 3, GL_FLOAT, false, 0, 2);
+    attribute(array, 8, 3, GL_FLOAT, false, sizeof(Vec3), 2);
 }
 
 std::vector<Bounds> Geometry::move(const WorldMesh& moved) {

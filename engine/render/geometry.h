@@ -34,6 +34,8 @@ class Geometry {
     void bind() const { glBindVertexArray(vertex_array_.get()); }
     /// Other indices over the same vertices, until the next call; 0: the mesh's own.
     void use_indices(GLuint buffer) const;
+    /// Attributes 7 and 8 from now on: three floats each, a vertex' after the one before.
+    void use_light(GLuint buffer) const;
     /// bind() first.
     static void draw(const DrawList& list);
 

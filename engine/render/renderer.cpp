@@ -109,10 +109,11 @@ struct Renderer::State {
     // Poses.
     bool part_moved(const Pose& to, bool dynamic) const;
     void build_static(const WorldMesh& mesh);
+    void build_moving(const WorldMesh& mesh);
     void find_bounds();
 
     // Frames.
-    FrameFacts facts(const FrameSettings& frame);
+    FrameFacts facts(const FrameSettings& frame, const Frustum& seen);
     glsl::FrameBlock frame_block(const FrameSettings& frame) const;
     FrameDefines frame_defines(Layer show) const;
 };
@@ -183,6 +184,16 @@ void Renderer::State::build_static(const WorldMesh& mesh) {
     if (mesh.triangle_count() > 0) draw.parts[0].emplace(build_draw_mesh(mesh, lightmap, false), false);
 }
 
+void Renderer::State::build_moving(const WorldMesh& mesh) {
+    const Geometry& part = draw.parts[1].emplace(build_draw_mesh(mesh, nullptr, true), true);
+    if (!baked_volume) return;
+    std::vector<bool> through;
+    for (const Batch& batch : part.mesh().batches)
+        through.push_back(coverage(draw.material(batch)) == Coverage::Through);
+    draw.volume_objects.set_mesh(part.mesh(), through);
+    part.use_light(draw.volume_objects.buffer());
+}
+
 void Renderer::State::find_bounds() {
     draw.box = {};
     for (const std::optional<Geometry>& part : draw.parts) {
@@ -219,7 +230,7 @@ void Renderer::set_pose(const Pose& pose) {
                         dynamic = world_mesh(s.scene, pose, Part::Dynamic);
         s.draw.materials.emplace(s.scene, used_materials(s.scene, still, dynamic));
         s.build_static(still);
-        if (dynamic.triangle_count() > 0) s.draw.parts[1].emplace(build_draw_mesh(dynamic, nullptr, true), true);
+        if (dynamic.triangle_count() > 0) s.build_moving(dynamic);
         for (const std::optional<Geometry>& part : s.draw.parts)
             for (std::size_t i = 0; part && i < part->mesh().batches.size(); ++i) {
                 const Material& material = s.draw.material(part->mesh().batches[i]);
@@ -231,12 +242,14 @@ void Renderer::set_pose(const Pose& pose) {
         s.draw.standing_version = s.draw.version;
     } else {
         s.draw.moved.clear();
-        if (moving && s.draw.parts[1]) s.draw.moved = s.draw.parts[1]->move(world_mesh(s.scene, pose, Part::Dynamic));
+        if (moving && s.draw.parts[1]) {
+            s.draw.moved = s.draw.parts[1]->move(world_mesh(s.scene, pose, Part::Dynamic));
+            s.draw.volume_objects.move(s.draw.parts[1]->mesh());
+        }
         if (standing) s.build_static(world_mesh(s.scene, pose, Part::Static));
         s.draw.version += standing ? 2 : s.draw.moved.empty() ? 0 : 1;
         if (standing) s.draw.standing_version = s.draw.version;
     }
-    if (s.draw.parts[1]) s.draw.volume_objects.set_mesh(s.draw.parts[1]->mesh());
     s.find_bounds();
 }
 
@@ -250,7 +263,7 @@ void Renderer::set_lighting(const Lighting& lighting) {
 
 // --- frames ----------------------------------------------------------------------------------------------------------
 
-FrameFacts Renderer::State::facts(const FrameSettings& frame) {
+FrameFacts Renderer::State::facts(const FrameSettings& frame, const Frustum& seen) {
     FrameFacts f;
     f.show = frame.show;
     f.baked = baked_light || baked_volume;
@@ -258,6 +271,9 @@ FrameFacts Renderer::State::facts(const FrameSettings& frame) {
                     (baked_volume && baked_volume->stale(lighting.scales, frame.hour));
     f.volume = baked_volume.has_value();
     f.volume_view = frame.volume_view;
+    if (baked_volume && draw.parts[1] && shows_baked_light(frame.show))
+        f.moving_unlit = draw.volume_objects.plan(draw.parts[1]->mesh(), seen, baked_volume->tree(), frame.volume_mode,
+                                                  baked_volume->stale(lighting.scales, frame.hour));
     f.suns = lighting.suns.size();
     f.any_surface = draw.parts[0] || draw.parts[1];
     if (shows_straight_light(frame.show)) {
@@ -315,7 +331,9 @@ FrameReport Renderer::draw(const FrameSettings& frame) {
     s.target.resize(frame.width, frame.height, frame.samples_per_side);
     s.draw.cull = frame.cull;
     s.draw.materials->set_fine(frame.samples_per_side > 1);
-    const FramePlan plan = plan_frame(s.facts(frame));
+    glsl::FrameBlock block = s.frame_block(frame);
+    const Frustum seen = frame.cull ? frustum(block.clip_from_world, true) : Frustum{{}, 0};
+    const FramePlan plan = plan_frame(s.facts(frame, seen));
     PassRunner passes(plan, report, frame.timings);
 
     glBindVertexArray(s.no_attributes.get());
@@ -325,23 +343,22 @@ FrameReport Renderer::draw(const FrameSettings& frame) {
         const int tiles = s.baked_light->set_light(s.lighting.scales, frame.hour, s.draw.programs);
         return DrawCount{1, 2 * tiles, 0, 0};
     });
+    passes.run(PassKind::MovingLight, [&] {
+        return DrawCount{0, s.draw.volume_objects.renew(s.draw.parts[1]->mesh(), *s.baked_volume), 0, 0};
+    });
     passes.run(PassKind::SunShadows, [&] { return s.sun_shadow.draw(s.draw); });
     passes.run(PassKind::LampShadows, [&] { return s.lamp_shadow.draw(s.draw); });
 
-    glsl::FrameBlock block = s.frame_block(frame);
     if (shows_straight_light(frame.show)) {
         s.sun_shadow.use(block);
         s.lamp_shadow.use(block);
     }
     if (s.baked_light) s.baked_light->bind();
-    if (s.baked_volume) s.baked_volume->bind();
-    if (s.baked_volume && shows_baked_light(frame.show))
-        s.draw.volume_objects.set_light(*s.baked_volume->light(), frame.volume_mode);
+    if (plan[std::size_t(PassKind::VolumeView)].runs || s.draw.volume_objects.any_at_pixels()) s.baked_volume->bind();
     glNamedBufferSubData(s.frame_buffer.get(), 0, sizeof block, &block);
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, s.frame_buffer.get());
 
     s.target.bind_and_clear();
-    const Frustum seen = frustum(block.clip_from_world, true);
     passes.run(PassKind::Depth, [&] {
         glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
         const DrawCount count = s.draw.draw_depth(block.clip_from_world, seen);

@@ -1,36 +1,56 @@
 #pragma once
-// What moves, thing by thing: where each looks up the light of the volume.
+// What moves, thing by thing: where each looks up the light of the volume. What is looked up once a thing or at its
+// vertices is worked out here and kept in a buffer, so that a frame pays for it only when things or the light have
+// moved.
 #include <vector>
 
 #include "engine/baked/volume_mode.h"
+#include "engine/gl/owners.h"
+#include "engine/render/baked_volume.h"
+#include "engine/render/culling.h"
 #include "engine/render/draw_mesh.h"
 
 namespace daylit {
 
-/// How the triangles of a cluster are lit by the volume.
-struct VolumeUse {
-    VolumeMode mode = VolumeMode::Vertex;
-    std::uint32_t thing = 0;  // whose light, where it is looked up once
-    bool operator==(const VolumeUse&) const = default;
-};
-
 class VolumeObjects {
   public:
-    /// The triangles of a node are one thing; built by node, and each time they have moved.
-    void set_mesh(const DrawMesh& mesh);
-    /// Chooses a mode for each thing, unless one is asked for.
-    void set_light(const VolumeLight& light, VolumeMode asked);
+    /// The triangles of a node are one thing.
+    /// through   of each batch: drawn in the blended pass, at vertices whatever the mode
+    void set_mesh(const DrawMesh& mesh, const std::vector<bool>& through);
+    /// The same triangles after some have moved.
+    void move(const DrawMesh& mesh);
 
-    /// Of a cluster of the mesh; per vertex before set_light().
-    VolumeUse use(std::uint32_t cluster) const;
-    /// Radiance SH in the middle of a thing whose mode is Object.
-    const glsl::VolumeSh& light(std::uint32_t thing) const { return light_[thing]; }
+    /// Chooses a mode for each thing, unless one is asked for, and finds what may be seen and is not lit.
+    /// returns   whether renew() would have work to do
+    bool plan(const DrawMesh& mesh, const Frustum& frustum, const VolumeTree& tree, VolumeMode asked, bool light_moved);
+    /// Lights what plan() found; returns its triangles.
+    long renew(const DrawMesh& mesh, BakedVolume& volume);
+
+    /// Irradiance on front and back, lux, of each vertex of the mesh, as Geometry::use_light() takes it.
+    GLuint buffer() const { return buffer_.get(); }
+    /// Whether a cluster of the mesh is lit at its pixels; not before plan().
+    bool at_pixels(std::uint32_t cluster) const { return !modes_.empty() && mode(cluster) == VolumeMode::Pixel; }
+    /// Whether one that plan() saw is.
+    bool any_at_pixels() const { return any_at_pixels_; }
 
   private:
+    struct Part {  // of a thing: a cluster
+        std::uint32_t thing = 0;
+        std::uint32_t first = 0, end = 0;  // its vertices
+        std::uint64_t moves = 0;           // as the cluster's when it was last looked at
+        bool through = false;
+        VolumeMode lit = VolumeMode::Auto;  // how it is lit in the buffer; Auto: it is not
+    };
+    VolumeMode mode(std::uint32_t cluster) const;
+    void measure(const DrawMesh& mesh);
+
     std::vector<ThingSize> things_;
-    std::vector<std::uint32_t> thing_of_;  // by cluster
-    std::vector<VolumeMode> modes_;        // by thing
-    std::vector<glsl::VolumeSh> light_;    // by thing
+    std::vector<VolumeMode> modes_;  // by thing; empty: not chosen since they moved
+    VolumeMode asked_ = VolumeMode::Auto;
+    std::vector<Part> parts_;           // by cluster
+    std::vector<std::uint32_t> unlit_;  // clusters that plan() found
+    bool any_at_pixels_ = false;
+    GlBuffer buffer_;
 };
 
 }  // namespace daylit

@@ -130,6 +130,80 @@ TEST_F(BakedVolumeTest, auto_mode_goes_by_size_gl) {
     EXPECT_EQ(square(baked, 0.130f, VolumeMode::Auto).pixels, square(baked, 0.130f, VolumeMode::Pixel).pixels);
 }
 
+/// Two squares of four triangles each that move, side by side; the picture shows the place around x alone.
+struct TwoThings {
+    TwoThings() {
+        baked.volume = uneven_volume();
+        baked.volume->basis.curves[baked.volume->basis.still(StillColumn::Evening)] = 1.0f;
+        scene = scene_of({}, {lambert(Rgb(0.5f))});
+        for (const float x : {-1.0f, 1.0f}) {
+            Primitive square = ground(Vec3(x, 0.5f, 0.0f), 0.3f, 0.3f, 0);
+            square.indices.insert(square.indices.end(), {0, 1, 3, 1, 2, 3});
+            scene.meshes.push_back({"square", {square}, {}});
+            Node node;
+            node.mesh = int(scene.nodes.size());
+            node.dynamic = true;
+            scene.order.push_back(node.mesh);
+            scene.nodes.push_back(node);
+        }
+    }
+    /// The triangles that were lit for it.
+    static long draw(Renderer& renderer, float x, VolumeMode mode, double hour = 12.0, Layer layer = Layer::Volume) {
+        LightScales scales;
+        scales.evening = hour == 12.0 ? 1.0f : 0.5f;
+        renderer.set_lighting({{}, {Image(1, 1)}, scales});
+        FrameSettings frame = frame_of(from_above(1.0f, Vec3(x, 0.5f, 0.0f)), kPixels, kPixels, layer);
+        frame.hour = hour;
+        frame.volume_mode = mode;
+        const FrameReport report = renderer.draw(frame);
+        EXPECT_EQ(pass(report, "moving light").ran, pass(report, "moving light").triangles > 0);
+        return pass(report, "moving light").triangles;
+    }
+    Pose pose(float lift, float turn = 0.0f) const {
+        Scene moved = scene;
+        moved.nodes[0].rotation = glm::angleAxis(turn, Vec3(0, 0, 1));
+        moved.nodes[0].translation = Vec3(0, lift, 0);
+        return pose_scene(moved);
+    }
+    Scene scene;
+    Baked baked;
+};
+
+TEST_F(BakedVolumeTest, only_what_is_seen_and_moved_is_looked_up_gl) {
+    const TwoThings things;
+    for (const VolumeMode mode : {VolumeMode::Object, VolumeMode::Vertex}) {
+        Renderer renderer(things.scene, &things.baked);
+        EXPECT_EQ(TwoThings::draw(renderer, -1.0f, mode), 4);
+        EXPECT_EQ(TwoThings::draw(renderer, -1.0f, mode), 0);  // all is still
+        EXPECT_EQ(TwoThings::draw(renderer, 1.0f, mode), 4);   // comes into view
+        EXPECT_EQ(TwoThings::draw(renderer, -1.0f, mode), 0);
+        renderer.set_pose(things.pose(0.2f));
+        EXPECT_EQ(TwoThings::draw(renderer, 1.0f, mode), 0);  // the other one moved
+        EXPECT_EQ(TwoThings::draw(renderer, -1.0f, mode, 12.0, Layer::Direct), 0);
+        EXPECT_EQ(TwoThings::draw(renderer, -1.0f, mode), 4);
+        EXPECT_EQ(TwoThings::draw(renderer, -1.0f, mode, 13.0), 4);  // another light
+        EXPECT_EQ(TwoThings::draw(renderer, 1.0f, mode, 13.0), 4);
+        EXPECT_EQ(TwoThings::draw(renderer, 1.0f, mode, 13.0), 0);
+        EXPECT_EQ(TwoThings::draw(renderer, 1.0f, VolumeMode::Pixel, 13.0), 0);  // the shader's work
+    }
+}
+
+TEST_F(BakedVolumeTest, what_is_kept_is_what_a_new_renderer_shows_gl) {
+    const TwoThings things;
+    for (const VolumeMode mode : {VolumeMode::Object, VolumeMode::Vertex}) {
+        Renderer kept(things.scene, &things.baked);
+        TwoThings::draw(kept, -1.0f, mode);
+        const Image before = kept.read_radiance();
+        kept.set_pose(things.pose(0.2f, 0.3f));
+        TwoThings::draw(kept, -1.0f, mode, 13.0);
+        EXPECT_NE(kept.read_radiance().pixels, before.pixels);
+        Renderer fresh(things.scene, &things.baked);
+        fresh.set_pose(things.pose(0.2f, 0.3f));
+        TwoThings::draw(fresh, -1.0f, mode, 13.0);
+        EXPECT_EQ(kept.read_radiance().pixels, fresh.read_radiance().pixels);
+    }
+}
+
 /// The view of samples and cells around the volume's corner (0, 0, 0), seen from straight above over a standing floor.
 FrameReport look_at_samples(const Baked& baked, Layer layer, bool asked, Image& image) {
     const Scene scene = scene_of({ground(Vec3(0, -1, 0), 5, 5, 0)}, {lambert(Rgb(0.5f))});

@@ -67,6 +67,17 @@ TEST(DrawMesh, moving_names_the_places_left_and_reached) {
         EXPECT_EQ(moved[i + 1].max.y, 3.0f);
         EXPECT_GE(moved[i].min.x, 8.0f);
     }
+    const auto moves = [&](std::uint32_t node) {
+        std::uint64_t sum = 0;
+        for (const Cluster& cluster : draw.clusters) sum += cluster.node == node ? cluster.moves : 0;
+        return sum;
+    };
+    EXPECT_EQ(moves(0), 0u);
+    EXPECT_EQ(moves(1), 2u);
+    mesh.normals.assign(mesh.normals.size(), Vec3(1, 0, 0));
+    EXPECT_TRUE(move_draw_mesh(draw, mesh).empty());  // shadows stay where they are
+    EXPECT_EQ(moves(0), 2u);
+    EXPECT_EQ(moves(1), 4u);
 }
 
 TEST(Culling, keeps_what_may_be_seen_and_drops_what_is_outside) {

@@ -139,10 +139,17 @@ TEST(IrradianceVolume, many_places_at_once_are_as_each_alone) {
         normals.push_back(kNormals[std::size_t(i) % kNormals.size()]);
     }
     std::vector<Rgb> all(places.size());
-    VolumeBatch(light).irradiance(places, normals, all);
+    std::vector<TwoSided> both(places.size());
+    const VolumeBatch batch(light);
+    batch.irradiance(places, normals, all);
+    batch.two_sided(places, normals, both);
     for (std::size_t i = 0; i < all.size(); ++i) {
-        const Rgb alone = light.irradiance(places[i], normals[i]);
-        for (int c = 0; c < 3; ++c) EXPECT_NEAR(all[i][c], alone[c], 1e-5f * alone[c]) << i;
+        const Rgb alone = light.irradiance(places[i], normals[i]), back = light.irradiance(places[i], -normals[i]);
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(all[i][c], alone[c], 1e-5f * alone[c]) << i;
+            EXPECT_NEAR(both[i].front[c], alone[c], 1e-5f * std::max(alone[c], back[c])) << i;
+            EXPECT_NEAR(both[i].back[c], back[c], 1e-5f * std::max(alone[c], back[c])) << i;
+        }
     }
 }
 
