@@ -5,15 +5,18 @@
 #include "engine/base/file.h"
 #include "engine/base/random.h"
 #include "gi/encode/encode_lightmap.h"
+#include "gi/surface/parting.h"
 #include "gi/surface/smooth.h"
 #include "gi/surface/surroundings.h"
 
 namespace daylit {
 namespace {
 
+constexpr double kLeak = 0.1;  // of the brightness of a cell's larger part, below which the darker is shown
+
 /// Of all that decides what is traced.
 std::uint64_t checkpoint_key(const BakeInput& input) {
-    constexpr std::uint64_t kStage = 2;  // changes whenever what is traced does
+    constexpr std::uint64_t kStage = 3;  // changes whenever what is traced does
     const BakeSettings& settings = input.settings;
     std::uint64_t key = mix64(kStage ^ mix64(geometry_hash(input.mesh)));
     for (const std::uint64_t part : {std::uint64_t(input.plan.texel_budget), std::uint64_t(input.plan.rays),
@@ -71,11 +74,46 @@ std::vector<bool> both(std::vector<bool> a, const std::vector<bool>& b) {
     return a;
 }
 
-/// Each texel that is shown is its own row.
-std::vector<std::uint32_t> rows_of_texels(const std::vector<bool>& shown) {
-    std::vector<std::uint32_t> result(shown.size(), ~0u);
-    for (std::uint32_t t = 0; t < shown.size(); ++t)
+/// Brightness of a texel over the moments, each over what the eye is adapted to.
+class Brightness {
+  public:
+    explicit Brightness(const LightmapRows& rows) : rows_(rows) {
+        for (const Moment& m : rows.moments) {
+            weights_.push_back(rows.basis.weights(m.scales, m.hour));
+            for (Rgb& w : weights_.back()) w /= float(m.exposure);
+        }
+    }
+    double operator()(std::uint32_t texel) const {
+        double sum = 0.0;
+        for (const std::vector<Rgb>& w : weights_)
+            for (std::size_t r = 0; r < w.size(); ++r)
+                sum += double(luminance(w[r] * rows_.texels[texel * w.size() + r]));
+        return sum;
+    }
+
+  private:
+    const LightmapRows& rows_;
+    std::vector<std::vector<Rgb>> weights_;
+};
+
+/// Each texel that is shown is its own row. A cell with several parts shows the largest, unless another is so much
+/// darker that this would be light through a wall: then the bright side is dark along the wall's foot.
+std::vector<std::uint32_t> rows_of_texels(const Texels& texels, const std::vector<bool>& shown,
+                                          const LightmapRows& rows) {
+    const Brightness brightness(rows);
+    std::vector<std::uint32_t> result(shown.size(), kNoTexel);
+    for (std::uint32_t t = 0; t < shown.size(); ++t) {
         if (shown[t]) result[t] = t;
+        if (texels.next_part[t] == kNoTexel) continue;
+        std::uint32_t largest = kNoTexel, darkest = kNoTexel;
+        texels.for_parts(t, [&](std::uint32_t part) {
+            if (!shown[part]) return;
+            if (largest == kNoTexel || texels.points_of(part).size() > texels.points_of(largest).size()) largest = part;
+            if (darkest == kNoTexel || brightness(part) < brightness(darkest)) darkest = part;
+        });
+        const bool leaks = largest != kNoTexel && brightness(darkest) < kLeak * brightness(largest);
+        result[t] = leaks ? darkest : largest;
+    }
     return result;
 }
 
@@ -95,7 +133,7 @@ SolvedDay::SolvedDay(const BakeInput& from, const Progress& progress)
       rays(input.scene, input.mesh),
       kept(input.settings.keep_uv2 ? kept_layouts(input.scene, input.mesh) : KeptLayouts{}),
       atlas(atlas_of(input, rays, kept)),
-      texels(make_texels(input.mesh, atlas)),
+      texels(make_parted_texels(rays, atlas)),
       gather(gather_scene(rays, atlas, texels, input.lamps)),
       hits(hits_of(input, gather, how, progress)),
       day(solution_of(input, gather, hits, how, progress)) {}
@@ -121,8 +159,9 @@ LightmapRows lightmap_rows(SolvedDay& solved, const StageProgress& progress) {
     result.shape.corner_uvs = solved.atlas.corner_uvs;
     result.basis = light_basis(solved.day.basis);
     result.moments = moments(solved.day, solved.input.light);
-    result.row_of_pixel = rows_of_pixels(solved.atlas, solved.texels,
-                                         rows_of_texels(shown(solved.atlas, solved.texels, solved.hits, open)));
+    result.row_of_pixel =
+        rows_of_pixels(solved.atlas, solved.texels,
+                       rows_of_texels(solved.texels, shown(solved.atlas, solved.texels, solved.hits, open), result));
     return result;
 }
 

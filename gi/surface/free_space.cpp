@@ -6,7 +6,6 @@
 namespace daylit {
 namespace {
 
-constexpr int kLooks = 64;
 constexpr float kTouching = 1e-3f;  // cells
 
 }  // namespace
@@ -74,24 +73,6 @@ double FreeSpace::reached_share(const Bounds& box) const {
         for (int y = first.y; y <= last.y; ++y)
             for (int x = first.x; x <= last.x; ++x) ++all, reached += reached_[index({x, y, z})];
     return all > 0 ? double(reached) / double(all) : 0.0;
-}
-
-bool FreeSpace::buried(const Vec3& place) const {
-    int backs = 0;
-    for (int look = 0; look < kLooks; ++look) {
-        // Evenly over the sphere, a golden angle apart (Swinbank and Purser 2006).
-        const float y = 1.0f - (2.0f * float(look) + 1.0f) / float(kLooks), r = std::sqrt(1.0f - y * y);
-        const float turn = 2.39996323f * float(look);
-        const Vec3 direction(r * std::cos(turn), y, r * std::sin(turn));
-        const std::optional<Hit> met = rays_.closest({place, direction}, std::uint64_t(look));
-        backs += met && glm::dot(direction, met->normal) > 0.0f;
-    }
-    return 2 * backs > kLooks;
-}
-
-bool FreeSpace::open(const Vec3& from, const Vec3& to) const {
-    const float distance = glm::distance(from, to);
-    return distance == 0.0f || rays_.transmittance({from, (to - from) / distance, 0.0f, distance}) > 0.0f;
 }
 
 bool FreeSpace::inside(const glm::ivec3& cell) const {

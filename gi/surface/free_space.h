@@ -2,7 +2,7 @@
 // Which places can be reached without passing through a surface.
 #include <vector>
 
-#include "gi/trace/ray_scene.h"
+#include "gi/trace/line_of_sight.h"
 
 namespace daylit {
 
@@ -22,10 +22,8 @@ class FreeSpace {
     bool reachable(const Vec3& place) const;
     /// Share of reached cells among those that a box overlaps.
     double reached_share(const Bounds& box) const;
-    /// Whether a place is inside of something solid: what is seen from it, all around, is mostly the backs of faces.
-    bool buried(const Vec3& place) const;
-    /// Whether nothing lies between two places.
-    bool open(const Vec3& from, const Vec3& to) const;
+    bool buried(const Vec3& place) const { return daylit::buried(rays_, place); }
+    bool open(const Vec3& from, const Vec3& to) const { return in_sight(rays_, from, to); }
 
   private:
     glm::ivec3 cell_of(const Vec3& place) const { return glm::ivec3(glm::floor((place - box_.min) / cell_)); }

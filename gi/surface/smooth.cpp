@@ -58,9 +58,7 @@ class Neighbourhood {
             return texels_.position[t] +
                    std::min(kSightHeight * texels_.width[t], 0.3f * nearness_[t]) * texels_.normal[t];
         };
-        const Vec3 from = above(a), way = above(b) - from;
-        const float length = glm::length(way);
-        return !(length > 0.0f) || rays_.transmittance({from, way / length, 0.0f, length}) > 0.0f;
+        return in_sight(rays_, above(a), above(b));
     }
 
     const RayScene& rays_;

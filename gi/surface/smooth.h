@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "gi/surface/texels.h"
-#include "gi/trace/ray_scene.h"
+#include "gi/trace/line_of_sight.h"
 
 namespace daylit {
 

@@ -16,8 +16,10 @@ constexpr int kGrid = 4;               // points along each side of a texel
 constexpr std::size_t kFewPoints = 4;  // a texel with fewer also takes the centroids of triangles too small to be met
 
 /// The points of one chart, sorted by cell.
+using Points = std::vector<TexelPoint>;
 struct ChartPoints {
-    std::vector<std::vector<TexelPoint>> cells;
+    std::vector<Points> cells;
+    std::vector<std::vector<Points>> parts;  // of cells, when they are parted; may be shorter
 };
 
 /// From the chart's grid to one of kGrid x kGrid points a texel, with its origin half a texel outside the chart.
@@ -66,6 +68,17 @@ ChartPoints chart_points(const Atlas& atlas, const PlacedChart& c) {
     return result;
 }
 
+float width_of(const PlacedChart& c) {
+    return std::sqrt(std::max(c.step.x, 1e-9f) * std::max(c.step.y, 1e-9f));
+}
+
+/// Points of the same number, in their order.
+std::vector<Points> by_number(const Points& points, const std::vector<int>& numbers) {
+    std::vector<Points> parts(std::size_t(*std::max_element(numbers.begin(), numbers.end())) + 1);
+    for (std::size_t i = 0; i < points.size(); ++i) parts[std::size_t(numbers[i])].push_back(points[i]);
+    return parts;
+}
+
 /// Unit; zero where the triangle has no area in the grid.
 Vec3 growth_of_u(const WorldMesh& mesh, const Atlas& atlas, std::uint32_t triangle) {
     const std::uint32_t* corner = &mesh.indices[3 * std::size_t(triangle)];
@@ -78,8 +91,8 @@ Vec3 growth_of_u(const WorldMesh& mesh, const Atlas& atlas, std::uint32_t triang
     return unit_or(Vec3((twice < 0.0 ? -1.0 : 1.0) * (g.y * e - d.y * f)), Vec3(0.0f));
 }
 
-void add_texel(const WorldMesh& mesh, const Atlas& atlas, std::vector<TexelPoint>&& points, std::uint32_t chart,
-               std::uint32_t cell, float width, Texels& texels) {
+void add_texel(const WorldMesh& mesh, const Atlas& atlas, const Points& points, std::uint32_t chart, std::uint32_t cell,
+               float width, Texels& texels) {
     Vec3 place(0.0f), normal(0.0f), along_u(0.0f);
     for (const TexelPoint& p : points) {
         place += position(mesh, p) / float(points.size());
@@ -87,7 +100,12 @@ void add_texel(const WorldMesh& mesh, const Atlas& atlas, std::vector<TexelPoint
         along_u += growth_of_u(mesh, atlas, p.triangle);
     }
     normal = unit_or(normal, geometric_normal(mesh, points.front().triangle));
-    texels.texel_of_cell[cell] = std::uint32_t(texels.count());
+    const auto id = std::uint32_t(texels.count());
+    if (texels.texel_of_cell[cell] == kNoTexel)
+        texels.texel_of_cell[cell] = id;
+    else
+        texels.next_part.back() = id;  // parts of a cell follow one another
+    texels.next_part.push_back(kNoTexel);
     texels.chart.push_back(chart);
     texels.cell.push_back(cell);
     texels.position.push_back(place);
@@ -152,7 +170,7 @@ std::vector<bool> away_from(const Atlas& atlas, const Texels& texels, const std:
         for (int dy = std::max(y - 1, 0); dy <= std::min(y + 1, c.ny - 1); ++dy)
             for (int dx = std::max(x - 1, 0); dx <= std::min(x + 1, c.nx - 1); ++dx) {
                 const std::uint32_t other = texels.texel_of_cell[first + std::uint32_t(dy * c.nx + dx)];
-                near |= other != kNoTexel && marked[other];
+                texels.for_parts(other, [&](std::uint32_t part) { near = near || marked[part]; });
             }
         away[t] = !near;
     }
@@ -164,13 +182,32 @@ std::uint32_t Texels::at(const Atlas& atlas, std::uint32_t triangle, const Vec2&
     if (id == kNoChart) return kNoTexel;
     const PlacedChart& c = atlas.charts[id];
     const Vec2 grid = atlas.grid(triangle, barycentric);
-    return nearest_texel_of_cell[first_cell[id] + std::uint32_t(c.nearest_y(grid) * c.nx + c.nearest_x(grid))];
+    const std::uint32_t first =
+        nearest_texel_of_cell[first_cell[id] + std::uint32_t(c.nearest_y(grid) * c.nx + c.nearest_x(grid))];
+    if (next_part[first] == kNoTexel) return first;
+    std::uint32_t nearest = first;
+    float least = 1e30f;
+    for_parts(first, [&](std::uint32_t part) {
+        for (const TexelPoint& p : points_of(part)) {
+            const float away = glm::distance(atlas.grid(p.triangle, p.barycentric), grid);
+            if (away < least) least = away, nearest = part;
+        }
+    });
+    return nearest;
 }
 
-Texels make_texels(const WorldMesh& mesh, const Atlas& atlas) {
+Texels make_texels(const WorldMesh& mesh, const Atlas& atlas, const PointParting& part) {
     std::vector<ChartPoints> charts(atlas.charts.size());
-    tbb::parallel_for(std::size_t(0), charts.size(),
-                      [&](std::size_t id) { charts[id] = chart_points(atlas, atlas.charts[id]); });
+    tbb::parallel_for(std::size_t(0), charts.size(), [&](std::size_t id) {
+        ChartPoints& chart = charts[id] = chart_points(atlas, atlas.charts[id]);
+        for (std::size_t i = 0; part && i < chart.cells.size(); ++i) {
+            if (chart.cells[i].empty()) continue;
+            const std::vector<int> numbers = part(chart.cells[i], width_of(atlas.charts[id]));
+            if (std::all_of(numbers.begin(), numbers.end(), [](int n) { return n == 0; })) continue;
+            chart.parts.resize(i + 1);
+            chart.parts[i] = by_number(chart.cells[i], numbers);
+        }
+    });
     Texels texels;
     texels.first_point.push_back(0);
     for (std::uint32_t id = 0; id < charts.size(); ++id) {
@@ -178,10 +215,13 @@ Texels make_texels(const WorldMesh& mesh, const Atlas& atlas) {
         const std::uint32_t first = std::uint32_t(texels.texel_of_cell.size());
         texels.first_cell.push_back(first);
         texels.texel_of_cell.resize(first + charts[id].cells.size(), kNoTexel);
-        const float width = std::sqrt(std::max(c.step.x, 1e-9f) * std::max(c.step.y, 1e-9f));
-        for (std::uint32_t i = 0; i < charts[id].cells.size(); ++i)
-            if (!charts[id].cells[i].empty())
-                add_texel(mesh, atlas, std::move(charts[id].cells[i]), id, first + i, width, texels);
+        for (std::uint32_t i = 0; i < charts[id].cells.size(); ++i) {
+            if (i < charts[id].parts.size() && !charts[id].parts[i].empty())
+                for (const Points& part_points : charts[id].parts[i])
+                    add_texel(mesh, atlas, part_points, id, first + i, width_of(c), texels);
+            else if (!charts[id].cells[i].empty())
+                add_texel(mesh, atlas, charts[id].cells[i], id, first + i, width_of(c), texels);
+        }
     }
     texels.first_cell.push_back(std::uint32_t(texels.texel_of_cell.size()));
     fill_nearest(atlas, texels);

@@ -1,6 +1,7 @@
 #pragma once
 // Where on the surface each texel of the atlas lies.
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -18,9 +19,11 @@ struct TexelPoint {
 /// bilinear filtering only and filled from these.
 struct Texels {
     std::vector<std::uint32_t> first_cell;     // of each chart's grid; one more than charts
-    std::vector<std::uint32_t> texel_of_cell;  // nx * ny per chart, row by row; kNoTexel: no surface in its footprint
+    std::vector<std::uint32_t> texel_of_cell;  // nx * ny per chart, row by row; kNoTexel: no surface in its footprint;
+                                               // of several parts the first
     std::vector<std::uint32_t> chart;          // of each texel
     std::vector<std::uint32_t> cell;           // of each texel, index into texel_of_cell
+    std::vector<std::uint32_t> next_part;      // of each texel: a further one of the same cell, whose points are apart
     std::vector<std::uint32_t> first_point;    // of each texel; one more than texels
     std::vector<TexelPoint> points;            // up to 16 a texel, spread over its footprint
     std::vector<Vec3> position;                // mean of its points
@@ -28,19 +31,33 @@ struct Texels {
     std::vector<Vec3> along_u;  // unit, along the surface: in which the atlas coordinate u grows, v still
     std::vector<float> width;   // metres: the side of a square as large as a texel of this chart
 
+    std::vector<std::uint8_t> walled;  // of each texel, not 0: something stands in its cell or beside; empty: unknown
+
     std::size_t count() const { return chart.size(); }
     std::span<const TexelPoint> points_of(std::size_t texel) const {
         return {points.data() + first_point[texel], first_point[texel + 1] - first_point[texel]};
     }
-    /// The texel that a point of a triangle belongs to: its own, or the nearest of the chart that has surface.
+    /// The texel that a point of a triangle belongs to: its own, or the nearest of the chart that has surface; of a
+    /// parted one the part with the nearest point.
     std::uint32_t at(const Atlas& atlas, std::uint32_t triangle, const Vec2& barycentric) const;
+
+    /// Calls use(texel) for this part of a cell and those after it.
+    template <class Use>
+    void for_parts(std::uint32_t texel, const Use& use) const {
+        for (; texel != ~0u; texel = next_part[texel]) use(texel);
+    }
 
     /// For cells without surface: the nearest texel of the same chart; for the others themselves.
     std::vector<std::uint32_t> nearest_texel_of_cell;
 };
 inline constexpr std::uint32_t kNoTexel = ~0u;
 
-Texels make_texels(const WorldMesh& mesh, const Atlas& atlas);
+/// Which of a cell's points, in a texel of this width (metres), make a texel of their own: a number for each point,
+/// from 0 without gaps.
+using PointParting = std::function<std::vector<int>(std::span<const TexelPoint>, float width)>;
+
+/// part   null: all points of a cell are one texel
+Texels make_texels(const WorldMesh& mesh, const Atlas& atlas, const PointParting& part = nullptr);
 
 Vec3 position(const WorldMesh& mesh, const TexelPoint& point);
 Vec3 geometric_normal(const WorldMesh& mesh, std::uint32_t triangle);

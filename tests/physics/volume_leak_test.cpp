@@ -77,12 +77,11 @@ TEST(VolumeLeak, next_to_nothing_comes_through_a_wall_of_ten_centimetres) {
     EXPECT_LT(found.worst, 0.20);
 }
 
-// Thinner than the floor's texels: one that lies across the foot of the wall has one brightness for both rooms, a share
-// of the bright one's. Until texels are parted there, the limit is one per cent of the bright side, ten times the dark.
-TEST(VolumeLeak, a_hundredth_of_the_bright_side_comes_past_a_wall_thinner_than_texels) {
+// Thinner than the floor's texels, which are parted where they lie across the foot of the wall.
+TEST(VolumeLeak, next_to_nothing_comes_through_a_wall_thinner_than_texels) {
     const Leak found = leak(0.02f);
-    EXPECT_LT(found.rms, 10.0);
-    EXPECT_LT(found.worst, 25.0);
+    EXPECT_LT(found.rms, 0.08);
+    EXPECT_LT(found.worst, 0.20);
 }
 
 /// Largest change over a millimetre against the larger of the changes before and after, on a straight path.

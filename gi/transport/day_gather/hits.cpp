@@ -60,7 +60,7 @@ class Tracer {
             hit[j] = kSkyBit | sky_bin(ray.direction);
             good[k] += !met;
             if (!met) continue;
-            const std::uint32_t texel = scene_.texels.at(scene_.atlas, met->triangle, met->barycentric);
+            const std::uint32_t texel = texel_at(scene_, ray, *met);
             const bool back = glm::dot(ray.direction, met->normal) > 0.0f;
             good[k] += !back && met->distance > covered;
             hit[j] = texel == kNoTexel ? kNoLight : texel | (back ? kBackBit : 0u);

@@ -92,7 +92,7 @@ ProbeGather::ProbeGather(const GatherScene& scene, const GatherHits& hits, const
 }
 
 std::uint32_t ProbeGather::row(const Ray& ray, const Hit& met) const {
-    const std::uint32_t texel = scene_.texels.at(scene_.atlas, met.triangle, met.barycentric);
+    const std::uint32_t texel = texel_at(scene_, ray, met);
     if (texel == kNoTexel) return kNoLight;
     return glm::dot(ray.direction, met.normal) > 0.0f ? back_[texel] : texel;
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "gi/surface/parting.h"
 #include "gi/transport/path_trace/bsdf.h"
 #include "gi/transport/path_trace/panes.h"
 
@@ -11,6 +12,12 @@ namespace {
 constexpr int kGlassEvents = 8;
 
 }  // namespace
+
+std::uint32_t texel_at(const GatherScene& scene, const Ray& ray, const Hit& hit) {
+    if (scene.texels.walled.empty()) return scene.texels.at(scene.atlas, hit.triangle, hit.barycentric);
+    return texel_in_sight(scene.rays, scene.atlas, scene.texels, hit.triangle, hit.barycentric,
+                          ray.origin + hit.distance * ray.direction);
+}
 
 Sight::Sight(const GatherScene& scene)
     : scene_(scene),

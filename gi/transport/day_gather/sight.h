@@ -10,6 +10,9 @@
 
 namespace daylit {
 
+/// The texel that a ray met; kNoTexel where the surface has none.
+std::uint32_t texel_at(const GatherScene& scene, const Ray& ray, const Hit& hit);
+
 inline constexpr int kEmitterSamples = 8;  // per receiver
 
 class Sight {

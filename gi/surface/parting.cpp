@@ -1,0 +1,161 @@
+#include "gi/surface/parting.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <tuple>
+
+#include "engine/base/vec.h"
+#include "gi/trace/line_of_sight.h"
+#include "gi/transport/path_trace/sampling.h"
+
+namespace daylit {
+namespace {
+
+constexpr float kSightHeight = 0.25f;        // texels above the surface: a kerb parts nothing
+constexpr std::size_t kMostCandidates = 32;  // texels beside a place
+
+class Parter {
+  public:
+    Parter(const RayScene& rays, std::span<const TexelPoint> points, float width) : rays_(rays) {
+        for (const TexelPoint& p : points) {
+            const Vec3 normal = geometric_normal(rays.mesh(), p.triangle);
+            normal_ += normal;
+            above_.push_back(position(rays.mesh(), p) + kSightHeight * width * normal);
+            middle_ += above_.back() / float(points.size());
+        }
+    }
+
+    std::vector<int> groups() const {
+        std::vector<int> of(above_.size(), 0);
+        if (of.size() < 2 || !parted_at_all()) return of;
+        std::iota(of.begin(), of.end(), 0);
+        for (std::size_t a = 0; a < of.size(); ++a)
+            for (std::size_t b = a + 1; b < of.size(); ++b)
+                if (of[a] != of[b] && in_sight(rays_, above_[a], above_[b]))
+                    std::replace(of.begin(), of.end(), std::max(of[a], of[b]), std::min(of[a], of[b]));
+        return numbered(of);
+    }
+
+  private:
+    /// From the point in the middle to those that lie farthest out on four sides: what parts a texel lies between.
+    bool parted_at_all() const {
+        const auto farthest = [&](const auto& value) {
+            return *std::max_element(above_.begin(), above_.end(),
+                                     [&](const Vec3& a, const Vec3& b) { return value(a) < value(b); });
+        };
+        const Vec3 from = farthest([&](const Vec3& p) { return -glm::distance(p, middle_); });
+        const Frame frame(unit_or(normal_, Vec3(0, 1, 0)));
+        for (const Vec3& side : {frame.x + frame.y, frame.x - frame.y, -frame.x + frame.y, -frame.x - frame.y})
+            if (!in_sight(rays_, from, farthest([&](const Vec3& p) { return glm::dot(p - middle_, side); })))
+                return true;
+        return false;
+    }
+
+    /// Groups in the open are numbered in the order of their first points; the others' points join the first.
+    std::vector<int> numbered(const std::vector<int>& of) const {
+        std::vector<int> number(of.size(), -1), result(of.size(), 0);
+        int count = 0;
+        for (std::size_t i = 0; i < of.size(); ++i) {
+            const auto first = std::size_t(of[i]);
+            if (first == i && !buried(rays_, above_[i])) number[i] = count++;
+            result[i] = std::max(number[first], 0);
+        }
+        return result;
+    }
+
+    const RayScene& rays_;
+    std::vector<Vec3> above_;
+    Vec3 middle_ = Vec3(0.0f), normal_ = Vec3(0.0f);
+};
+
+/// Calls use(texel) for the first parts of the cells around a texel's and its own, row by row.
+template <class Use>
+void for_cells_around(const Atlas& atlas, const Texels& texels, std::uint32_t texel, const Use& use) {
+    const std::uint32_t chart = texels.chart[texel], first = texels.first_cell[chart];
+    const PlacedChart& c = atlas.charts[chart];
+    const int x = int(texels.cell[texel] - first) % c.nx, y = int(texels.cell[texel] - first) / c.nx;
+    for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, c.ny - 1); ++ny)
+        for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, c.nx - 1); ++nx)
+            if (const std::uint32_t other = texels.texel_of_cell[first + std::uint32_t(ny * c.nx + nx)];
+                other != kNoTexel)
+                use(other);
+}
+
+/// A texel, its point that is nearest to a place, and how far that is.
+struct Candidate {
+    std::uint32_t texel;
+    Vec3 nearest;
+    float away;
+};
+
+Candidate candidate(const WorldMesh& mesh, const Texels& texels, std::uint32_t texel, const Vec3& place) {
+    Candidate best{texel, Vec3(0.0f), 1e30f};
+    for (const TexelPoint& p : texels.points_of(texel)) {
+        const Vec3 at = position(mesh, p);
+        if (const float away = glm::distance(at, place); away < best.away) best.away = away, best.nearest = at;
+    }
+    return best;
+}
+
+void mark_parts(Texels& texels, std::uint32_t first) {
+    texels.for_parts(first, [&](std::uint32_t part) { texels.walled[part] = 1; });
+}
+
+/// Marks texels that have parts, or whose middle is out of sight from a neighbouring one's.
+void mark(const RayScene& rays, const Atlas& atlas, std::size_t chart, Texels& texels) {
+    const auto above = [&](std::uint32_t t) {
+        return texels.position[t] + kSightHeight * texels.width[t] * texels.normal[t];
+    };
+    for (std::uint32_t cell = texels.first_cell[chart]; cell < texels.first_cell[chart + 1]; ++cell) {
+        const std::uint32_t own = texels.texel_of_cell[cell];
+        if (own == kNoTexel) continue;
+        bool walled = texels.next_part[own] != kNoTexel;
+        for_cells_around(atlas, texels, own, [&](std::uint32_t other) {
+            if (other > own && !in_sight(rays, above(own), above(other))) walled = true, mark_parts(texels, other);
+        });
+        if (walled) mark_parts(texels, own);
+    }
+}
+
+}  // namespace
+
+Texels make_parted_texels(const RayScene& rays, const Atlas& atlas) {
+    Texels texels = make_texels(rays.mesh(), atlas, [&rays](std::span<const TexelPoint> points, float width) {
+        return Parter(rays, points, width).groups();
+    });
+    texels.walled.assign(texels.count(), 0);
+    tbb::parallel_for(std::size_t(0), atlas.charts.size(),
+                      [&](std::size_t chart) { mark(rays, atlas, chart, texels); });
+    return texels;
+}
+
+std::uint32_t texel_in_sight(const RayScene& rays, const Atlas& atlas, const Texels& texels, std::uint32_t triangle,
+                             const Vec2& barycentric, const Vec3& place) {
+    const std::uint32_t nearest = texels.at(atlas, triangle, barycentric);
+    if (nearest == kNoTexel || !texels.walled[nearest]) return nearest;
+    const float height = kSightHeight * texels.width[nearest];
+    const Vec3 from = place + height * geometric_normal(rays.mesh(), triangle);
+    const auto seen = [&](const Candidate& c) {
+        return in_sight(rays, from, c.nearest + height * texels.normal[c.texel]);
+    };
+    if (seen(candidate(rays.mesh(), texels, nearest, place))) return nearest;
+    std::array<Candidate, kMostCandidates> candidates;
+    std::size_t count = 0;
+    for_cells_around(atlas, texels, nearest, [&](std::uint32_t first) {
+        texels.for_parts(first, [&](std::uint32_t part) {
+            if (part != nearest && count < candidates.size())
+                candidates[count++] = candidate(rays.mesh(), texels, part, place);
+        });
+    });
+    const auto found = std::span(candidates).first(count);
+    std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
+        return std::tie(a.away, a.texel) < std::tie(b.away, b.texel);
+    });
+    const auto first = std::find_if(found.begin(), found.end(), seen);
+    return first != found.end() ? first->texel : nearest;
+}
+
+}  // namespace daylit
