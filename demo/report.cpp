@@ -76,12 +76,12 @@ BakeSettings base_settings(const ReportOptions& options, const LoadedScene& load
     return base;
 }
 
-/// Of the studies, which are about the whole day.
-BakeSettings study_settings(const ReportOptions& options, BakeSettings base) {
-    constexpr double kQuickEvery = 1.0 / 3.0;  // hours
-    base.from_hour = 0.0, base.to_hour = 24.0;
-    if (options.quick) base.every_hours = std::min(base.every_hours, kQuickEvery);
-    return base;
+std::vector<ReportStudy> studies_of(const ReportOptions& options, const BakeSettings& base) {
+    BakeSettings day = base, few = base;
+    day.from_hour = 0.0, day.to_hour = 24.0;
+    constexpr double kQuickEvery = 1.0 / 3.0, kQuickCells = 0.25;  // hours; of the plan's
+    if (options.quick) day.every_hours = std::min(day.every_hours, kQuickEvery), few.tuning.cells *= kQuickCells;
+    return report_studies(few, day);
 }
 
 /// What the report is about; the path tracer is always compared with.
@@ -96,8 +96,18 @@ struct Chosen {
     }
 };
 
+/// The first point of each axis: sweeps begin with what costs least.
+std::vector<SweepPoint> one_an_axis(const std::vector<SweepPoint>& sweep) {
+    std::vector<SweepPoint> result;
+    for (const SweepPoint& point : sweep)
+        if (result.empty() || point.axis != result.back().axis) result.push_back(point);
+    return result;
+}
+
 Chosen chosen(const ReportOptions& options, const BakeSettings& base) {
-    const Chosen all{report_methods(base), report_studies(study_settings(options, base))};
+    Chosen all{report_methods(base), studies_of(options, base)};
+    for (ReportMethod& m : all.methods)
+        if (options.quick) m.sweep = one_an_axis(m.sweep);
     if (options.methods == "all") return all;
     Chosen result;
     std::string names;
@@ -401,8 +411,11 @@ void add_report(CLI::App& app) {
     const std::string group = "Report";
     command->add_option("-o", options->output, "folder for index.html, report.csv, report.json and the pictures")
         ->required();
-    command->add_flag("--quick", options->quick, "few points, paths and hours, one small picture")->group(group);
-    command->add_option("--methods", options->methods, "all, or a list of lightmap, volume, encodings, whole-day")
+    command->add_flag("--quick", options->quick, "few points, paths, hours and settings, one small picture")
+        ->group(group);
+    command
+        ->add_option("--methods", options->methods,
+                     "all, or a list of lightmap, volume, encodings, whole-day, volume-modes")
         ->group(group)
         ->capture_default_str();
     command->add_option("--points", options->points, "places to judge at")->group(group)->capture_default_str();

@@ -9,7 +9,8 @@ namespace daylit {
 
 /// Departures from what bake_plan chooses by BakeSettings::error, for reports that vary one thing at a time.
 struct BakeTuning {
-    double rays = 1.0, texels = 1.0;  // times the plan's own number of rays per receiver, of texels
+    // Times the plan's own number of rays per receiver, of texels, of a volume's cells.
+    double rays = 1.0, texels = 1.0, cells = 1.0;
 };
 
 struct BakeSettings {

@@ -36,7 +36,8 @@ VolumeSettings volume_settings(const BakeSettings& settings) {
     VolumeSettings result = settings.volume;
     const double finer = kPreviewError / settings.error;
     if (result.error <= 0.0f) result.error = float(std::clamp(0.8 * settings.error, 0.03, 0.2));
-    if (result.most_cells == 0) result.most_cells = std::size_t(std::clamp(kPreviewCells * finer, 500.0, kMostCells));
+    if (result.most_cells == 0)
+        result.most_cells = std::size_t(settings.tuning.cells * std::clamp(kPreviewCells * finer, 500.0, kMostCells));
     if (result.rays == 0) result.rays = kRaysOfTexelsPerSample * rays_per_texel(settings.error);
     result.seed = settings.seed;
     return result;

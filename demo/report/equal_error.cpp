@@ -33,9 +33,9 @@ std::optional<CostRatio> cost_at_equal_error(std::span<const ChartPoint> ours, s
     int count = 0;
     for (const ChartPoint& p : mine)
         if (const auto cost = cost_of(theirs, p.y)) logarithms += std::log(*cost / p.x), ++count;
-    if (count > 0) return CostRatio{std::exp(logarithms / count), false};
+    if (count > 0) return CostRatio{std::exp(logarithms / count), false, count, int(mine.size())};
     if (mine.front().y > theirs.back().y) return std::nullopt;
-    return CostRatio{theirs.back().x / mine.front().x, true};
+    return CostRatio{theirs.back().x / mine.front().x, true, 0, int(mine.size())};
 }
 
 }  // namespace daylit

@@ -8,8 +8,9 @@
 namespace daylit {
 
 struct CostRatio {
-    double ratio = 0.0;     // the other way's cost over ours
-    bool at_least = false;  // no error is reached by both: the other's best is still worse than our cheapest
+    double ratio = 0.0;       // the other way's cost over ours
+    bool at_least = false;    // no error is reached by both: the other's best is still worse than our cheapest
+    int reached = 0, of = 0;  // of our points that count, how many the other way is as good as
 };
 
 /// Points are cost (x) and error (y), both above zero; only each way's Pareto front counts. The mean (geometric) over

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "demo/lightmap_points.h"
+#include "gi/encode/sweep.h"
 #include "gi/transport/day_gather/sweep.h"
 
 namespace daylit {
@@ -85,7 +86,7 @@ ReportMethod volume(const BakeSettings& base) {
     m.answers = [](const Baked& baked) {
         return double(baked.volume->tree.samples) * double(baked.volume->basis.hours.size());
     };
-    m.sweep = day_gather_sweep(base);
+    m.sweep = volume_sweep(base);
     return m;
 }
 

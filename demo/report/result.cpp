@@ -11,6 +11,11 @@ constexpr Measure kMeasures[] = {
     {"nrmse", "nrmse", Unit::Share, true, "RMS error at points over the mean of the reference, mean of the hours"},
     {"nrmse_worst", "worst hour", Unit::Share, true, "nrmse of the worst hour"},
     {"bias", "bias", Unit::Share, true, "mean over mean of the reference, less 1; mean of the hours"},
+    {"gather_nrmse", "against the gather", Unit::Share, true,
+     "nrmse against the gather itself at these points, with many rays: what storing and interpolating adds"},
+    {"gather_p95", "95 % of them", Unit::Share, true,
+     "95th percentile of the difference from the gather over its mean, mean of the hours: without the few worst "
+     "places"},
     {"displayed_worst", "worst hour displayed", Unit::Share, false,
      "RMS of sRGB values of grey texels at the automatic exposure of the worst hour, against the uncompressed "
      "lightmap"},

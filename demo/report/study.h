@@ -20,7 +20,9 @@ struct ReportStudy {
     std::function<StudyResult(const Judges& judges, const Progress& progress)> run;
 };
 
-/// In the order of the page. base: of the report's bakes; each study says in `about` what it changes.
-std::vector<ReportStudy> report_studies(const BakeSettings& base);
+/// In the order of the page.
+/// base   of the report's bakes
+/// day    the same for studies of the whole day
+std::vector<ReportStudy> report_studies(const BakeSettings& base, const BakeSettings& day);
 
 }  // namespace daylit

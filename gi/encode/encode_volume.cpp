@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/gtc/packing.hpp>
 #include <map>
+#include <mutex>
+#include <tuple>
 
 #include "gi/encode/judged_basis.h"
 #include "gi/encode/volume_budget.h"
@@ -279,41 +281,109 @@ double measure(const OctreeCells& cells, const RefinedVolume& refined, const Irr
     return mean > 0.0 ? std::sqrt(wrong * double(count)) / mean : 0.0;
 }
 
+/// Samples that were taken, by place and key.
+class KeptSamples {
+  public:
+    template <class Make>
+    VolumeSample get(const Vec3& place, std::uint64_t key, const Make& make) {
+        const Where where{place.x, place.y, place.z, key};
+        {
+            const std::lock_guard lock(mutex_);
+            const auto found = samples_.find(where);
+            if (found != samples_.end()) return found->second;
+        }
+        VolumeSample made = make();
+        const std::lock_guard lock(mutex_);
+        samples_.emplace(where, made);
+        return made;
+    }
+
+  private:
+    using Where = std::tuple<float, float, float, std::uint64_t>;
+    std::mutex mutex_;
+    std::map<Where, VolumeSample> samples_;
+};
+
 }  // namespace
 
-EncodedVolume encode_volume(const Scene& scene, const GatherScene& gather, const GatherHits& hits,
-                            const LightBasis& light, const LeavingLight& leaving, std::span<const Moment> moments,
-                            const VolumeSettings& settings, const BasisSettings& basis_settings,
-                            const StageProgress& progress) {
+struct VolumeEncoder::State {
+    State(const Scene& scene, const GatherScene& gather, const GatherHits& hits, const LightBasis& light,
+          const LeavingLight& leaving_light, std::span<const Moment> moments, const VolumeSettings& settings,
+          const BasisSettings& basis_settings)
+        : rays(gather.rays),
+          sampling(settings),
+          leaving(leaving_light),
+          regions(swept_boxes(scene)),
+          space(reachable_space(scene, rays, regions)),
+          buried(buried_nodes(scene, space)),
+          probes(gather, hits, leaving),
+          pilots(pilot_rows(probes, space, regions, leaving.components, settings)),
+          basis(judge_basis({.light = light, .rows = pilots, .moments = {moments.begin(), moments.end()}},
+                            basis_settings)),
+          judged(judged_moments(moments)),
+          judge(basis.dense, judged),
+          turn(basis.turn) {}
+
+    const RayScene& rays;
+    VolumeSettings sampling;
+    LeavingLight leaving;
+    std::vector<Bounds> regions;
+    FreeSpace space;
+    std::vector<std::string> buried;
+    ProbeGather probes;
+    std::vector<Rgb> pilots;
+    JudgedBasis basis;
+    std::vector<Moment> judged;
+    Judge judge;
+    Turn turn;
+    std::unique_ptr<KeptSamples> kept;
+};
+
+VolumeEncoder::VolumeEncoder(const Scene& scene, const GatherScene& gather, const GatherHits& hits,
+                             const LightBasis& light, const LeavingLight& leaving, std::span<const Moment> moments,
+                             const VolumeSettings& settings, const BasisSettings& basis, bool keep_samples)
+    : state_(std::make_unique<State>(scene, gather, hits, light, leaving, moments, settings, basis)) {
+    if (keep_samples) state_->kept = std::make_unique<KeptSamples>();
+}
+
+VolumeEncoder::~VolumeEncoder() = default;
+
+std::array<int, 3> VolumeEncoder::roots() const {
+    return lay_octree(state_->space, state_->regions).size;
+}
+
+std::vector<float> VolumeEncoder::gathered(const Vec3& place, std::uint64_t key, int rays) const {
+    std::vector<float> mean = mean_of_halves(
+        state_->probes.at(place, key, {.rays = rays, .change = ProbeChange::None, .seed = state_->sampling.seed + 2}));
+    mean.resize(kNumbers * state_->leaving.components);
+    return mean;
+}
+
+EncodedVolume VolumeEncoder::encode(const VolumeSettings& settings, const StageProgress& progress) const {
+    const State& s = *state_;
     EncodedVolume result;
-    const std::vector<Bounds> regions = swept_boxes(scene);
-    const FreeSpace space = reachable_space(scene, gather.rays, regions);
-    result.buried = buried_nodes(scene, space);
-    const ProbeGather probes(gather, hits, leaving);
-    const std::vector<Rgb> pilots = pilot_rows(probes, space, regions, leaving.components, settings);
-    const JudgedBasis basis =
-        judge_basis({.light = light, .rows = pilots, .moments = {moments.begin(), moments.end()}}, basis_settings);
-    const std::vector<Moment> judged = judged_moments(moments);
-    const Judge judge(basis.dense, judged);
-    const Turn turn(basis.turn);
-    require_affordable(settings, lay_octree(space, regions).size,
-                       bytes_per_volume_cell(std::size_t(basis.stored.components), judge.functionals()));
-    const RefinedVolume refined = refine_volume(
-        gather.rays, space, regions,
-        [&](const Vec3& place, std::uint64_t key) { return sample(probes, turn, judge, place, key, settings); },
-        settings, {progress.report, progress.begin, 0.2 * progress.begin + 0.8 * progress.end});
-    const OctreeCells cells = make_cells(refined.octree, same_light_by_rays(refined, space));
-    const std::size_t components = std::size_t(basis.stored.components);
-    VolumeFit fit = fit_volume(cells, refined, kNumbers * components);
+    result.buried = s.buried;
+    const std::size_t components = std::size_t(s.basis.stored.components);
+    require_affordable(settings, roots(), bytes_per_volume_cell(components, s.judge.functionals()));
+    const auto take = [&](const Vec3& place, std::uint64_t key) {
+        const auto trace = [&] { return sample(s.probes, s.turn, s.judge, place, key, s.sampling); };
+        return s.kept ? s.kept->get(place, key, trace) : trace();
+    };
+    const RefinedVolume refined =
+        refine_volume(s.rays, s.space, s.regions, take, settings,
+                      {progress.report, progress.begin, 0.2 * progress.begin + 0.8 * progress.end});
+    const OctreeCells cells = make_cells(refined.octree, same_light_by_rays(refined, s.space));
+    VolumeFit fit = fit_volume(cells, refined, kNumbers * components, settings.blend);
     // Records inside of walls stand for what their cells interpolate, not for light that is there.
-    for (std::size_t s = 0; s < cells.samples.size(); ++s)
-        if (fit.measured[s])
+    for (std::size_t r = 0; r < cells.samples.size(); ++r)
+        if (fit.measured[r])
             result.window = std::max(
-                result.window, double(window(fit.records.data() + 4 * s * kNumbers * components, components, judge)));
+                result.window, double(window(fit.records.data() + 4 * r * kNumbers * components, components, s.judge)));
     result.volume.tree = cells.tree;
-    result.volume.basis = basis.stored;
+    result.volume.basis = s.basis.stored;
     quantise(fit.records, result.volume);
-    result.error = measure(cells, refined, result.volume, basis.dense, judged);
+    if (settings.blend == VolumeBlend::Adini)
+        result.error = measure(cells, refined, result.volume, s.basis.dense, s.judged);
     result.samples = refined.places.samples.size();
     result.unmeasured = std::size_t(std::count(fit.measured.begin(), fit.measured.end(), false));
     result.budget_spent = refined.budget_spent;

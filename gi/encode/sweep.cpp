@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "gi/encode/volume_budget.h"
+
 namespace daylit {
 namespace {
 
@@ -25,6 +27,52 @@ std::vector<LightmapEncoding> lightmap_encodings() {
     all.push_back({"paper's intervals", "paper's intervals, frames", PaperSettings{0, true}});
     all.push_back({"frames", "all frames", PaperSettings{0, false}});
     return all;
+}
+
+std::vector<SweepPoint> volume_sweep(const BakeSettings& base) {
+    std::vector<SweepPoint> sweep;
+    const auto add = [&](const char* axis, double value) -> BakeSettings& {
+        char name[64];
+        std::snprintf(name, sizeof name, axis == std::string("cells") ? "cells x %g" : "error %g", value);
+        return sweep.emplace_back(SweepPoint{axis, name, base}).settings;
+    };
+    for (const double factor : {0.25, 0.5}) add("cells", factor).tuning.cells *= factor;
+    for (const double factor : {3.0, 0.5}) add("error", factor * base.error).error *= factor;
+    return sweep;
+}
+
+std::vector<VolumeModePoint> volume_modes() {
+    constexpr VolumeBlend kAdini = VolumeBlend::Adini;
+    std::vector<VolumeModePoint> all = {{name(kAdini), {}}};
+    all.push_back({"uniform grid", {.blend = VolumeBlend::Trilinear, .grid = true}});
+    for (const VolumeBlend blend : kVolumeBlends)
+        if (blend != kAdini) all.push_back({name(blend), {.blend = blend}});
+    all.push_back({"two bands", {kAdini, VolumeBands::Two}});
+    all.push_back({"two bands and ZH3", {kAdini, VolumeBands::Zh3}});
+    all.push_back({"four bands", {kAdini, VolumeBands::Four}});
+    return all;
+}
+
+std::vector<VolumeSettings> volume_sizes(const VolumeMode& mode, const VolumeSettings& plan,
+                                         const std::array<int, 3>& roots) {
+    std::vector<VolumeSettings> sizes;
+    VolumeSettings settings = plan;
+    settings.blend = mode.blend;
+    if (mode.grid) {
+        constexpr int kMostLevel = 6;
+        for (int level = 0; level <= kMostLevel; ++level) {
+            if (level > 0 && cells_at_level(roots, level) > 4.0 * double(plan.most_cells)) break;
+            settings.min_level = settings.max_level = level;
+            sizes.push_back(settings);
+        }
+        return sizes;
+    }
+    for (const std::size_t part : {1, 2, 4, 8}) {
+        settings.most_cells = plan.most_cells / part;
+        if (part > 1 && double(settings.most_cells) < 1.5 * cells_at_level(roots, 0)) break;
+        sizes.push_back(settings);
+    }
+    return sizes;
 }
 
 }  // namespace daylit

@@ -5,6 +5,9 @@
 #include <vector>
 
 #include "gi/encode/encode_lightmap.h"
+#include "gi/encode/volume_mode_light.h"
+#include "gi/encode/volume_settings.h"
+#include "gi/sweep.h"
 
 namespace daylit {
 
@@ -22,5 +25,22 @@ struct LightmapEncoding {
 /// Tiles as bakes keep them (the first), and coarser; the paper's scheme with its own 10 and 20 vectors, and with fewer
 /// and more; frames as they are.
 std::vector<LightmapEncoding> lightmap_encodings();
+
+/// Bakes of volumes: fewer cells, and the target error, which sets cells and rays.
+std::vector<SweepPoint> volume_sweep(const BakeSettings& base);
+
+/// Ways to keep a volume and look it up; the first is the runtime's.
+struct VolumeModePoint {
+    std::string axis;
+    VolumeMode mode;
+};
+std::vector<VolumeModePoint> volume_modes();
+
+/// Sizes at which a mode is compared: of octrees, shares of the plan's number of cells; of grids, levels up to about
+/// that number.
+/// plan    with nothing left to follow from the error (BakePlan::volume_settings)
+/// roots   along x, y, z (VolumeEncoder::roots)
+std::vector<VolumeSettings> volume_sizes(const VolumeMode& mode, const VolumeSettings& plan,
+                                         const std::array<int, 3>& roots);
 
 }  // namespace daylit

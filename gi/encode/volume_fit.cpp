@@ -55,8 +55,8 @@ Vec3 t_of(int place) {
 
 class Fitter {
   public:
-    Fitter(const OctreeCells& cells, const RefinedVolume& refined, std::size_t numbers)
-        : cells_(cells), refined_(refined), numbers_(numbers) {}
+    Fitter(const OctreeCells& cells, const RefinedVolume& refined, std::size_t numbers, VolumeBlend blend)
+        : cells_(cells), refined_(refined), numbers_(numbers), blend_(blend) {}
 
     VolumeFit fit() {
         find_sides();
@@ -122,19 +122,22 @@ class Fitter {
                 const glsl::VolumeCell& from = tree.cells[tree.hanging[h].cell[part]];
                 const Vec3& t = tree.hanging[h].t[part];
                 Row& row = rows_[4 * (tree.samples + h) + part];
-                for (int c = 0; c < 8; ++c)
-                    blend(from, c,
-                          part == 0 ? glsl::volume_corner_weights(c, t, from.box.w)
-                                    : corner_weights_change(c, t, from.box.w, int(part) - 1),
-                          row);
+                blend(from, weights_of(t, from.box.w, part), row);
                 tidy(row);
             }
     }
 
-    void blend(const glsl::VolumeCell& cell, int corner, const Vec4& weights, Row& row) const {
-        for (int part = 0; part < 4; ++part)
-            if (weights[part] != 0.0f)
-                add_scaled(weights[part], rows_[4 * record_of(cell, corner) + std::size_t(part)], row);
+    /// Of the interpolant (part 0), or of its change along x, y, z.
+    std::array<Vec4, 8> weights_of(const Vec3& t, float side, std::size_t part) const {
+        return part == 0 ? blend_weights(blend_, t, side) : blend_weights_change(blend_, t, side, int(part) - 1);
+    }
+
+    void blend(const glsl::VolumeCell& cell, const std::array<Vec4, 8>& weights, Row& row) const {
+        for (int corner = 0; corner < 8; ++corner)
+            for (int part = 0; part < 4; ++part) {
+                const float weight = weights[std::size_t(corner)][part];
+                if (weight != 0.0f) add_scaled(weight, rows_[4 * record_of(cell, corner) + std::size_t(part)], row);
+            }
     }
 
     /// Of what is seen from a sample, in halves of this many metres, at most 1.
@@ -175,8 +178,7 @@ class Fitter {
                 if (!measured) continue;
                 Equation equation{{}, importance(*measured), measured->light.data(), 1.0f};
                 const glsl::VolumeCell& cell = cells_.tree.cells[c];
-                for (int corner = 0; corner < 8; ++corner)
-                    blend(cell, corner, glsl::volume_corner_weights(corner, t_of(p), cell.box.w), equation.row);
+                blend(cell, weights_of(t_of(p), cell.box.w, 0), equation.row);
                 tidy(equation.row);
                 equations_.push_back(std::move(equation));
             }
@@ -193,11 +195,7 @@ class Fitter {
                 const float of_change = of_value * weight_of_change(measured, cell.box.w);
                 for (std::size_t part = 0; part < 4; ++part) {
                     Equation equation{{}, of_value, measured.light.data() + part * numbers_, 1.0f};
-                    for (int corner = 0; corner < 8; ++corner)
-                        blend(cell, corner,
-                              part == 0 ? glsl::volume_corner_weights(corner, at.t, cell.box.w)
-                                        : corner_weights_change(corner, at.t, cell.box.w, int(part) - 1),
-                              equation.row);
+                    blend(cell, weights_of(at.t, cell.box.w, part), equation.row);
                     tidy(equation.row);
                     if (part > 0) {  // over the cell's side, as at corners
                         equation.weight = of_change, equation.scale = cell.box.w;
@@ -326,6 +324,7 @@ class Fitter {
     const OctreeCells& cells_;
     const RefinedVolume& refined_;
     std::size_t numbers_;
+    VolumeBlend blend_;
     double darkest_ = 0.0;
     std::vector<float> side_;                    // per sampled record, metres
     std::vector<Row> rows_;                      // per record and part: by unknowns
@@ -338,8 +337,8 @@ class Fitter {
 
 }  // namespace
 
-VolumeFit fit_volume(const OctreeCells& cells, const RefinedVolume& refined, std::size_t numbers) {
-    return Fitter(cells, refined, numbers).fit();
+VolumeFit fit_volume(const OctreeCells& cells, const RefinedVolume& refined, std::size_t numbers, VolumeBlend blend) {
+    return Fitter(cells, refined, numbers, blend).fit();
 }
 
 SameLight same_light_by_rays(const RefinedVolume& refined, const FreeSpace& space) {

@@ -12,7 +12,8 @@ struct VolumeFit {
 
 /// Least squares over values at corners, in the middle of cells and faces, and the changes that the corners' own rays
 /// told.
-VolumeFit fit_volume(const OctreeCells& cells, const RefinedVolume& refined, std::size_t numbers);
+/// blend   what will interpolate the records
+VolumeFit fit_volume(const OctreeCells& cells, const RefinedVolume& refined, std::size_t numbers, VolumeBlend blend);
 
 /// Whether light is the same at a corner for two cells, judged by rays between places that they were tested at.
 SameLight same_light_by_rays(const RefinedVolume& refined, const FreeSpace& space);

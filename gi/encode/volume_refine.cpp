@@ -332,11 +332,12 @@ class Refiner {
 
     double interpolated(const std::array<StandIn, 8>& corners, std::size_t f, const Vec3& t, float length) const {
         const std::size_t functionals = mean_.size();
+        const std::array<Vec4, 8> blend = blend_weights(settings_.blend, t, length);
         double sum = 0.0;
         for (int c = 0; c < 8; ++c) {
             const auto& [sample, from] = corners[std::size_t(c)];
             const std::vector<float>& judged = sample->judged;
-            const Vec4 weights = glsl::volume_corner_weights(c, t, length);
+            const Vec4& weights = blend[std::size_t(c)];
             const float noise = sample->change_noise * length;
             const Vec3 change =
                 Vec3(judged[functionals + f], judged[2 * functionals + f], judged[3 * functionals + f]) /

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "gi/encode/volume_modes.h"
+
 namespace daylit {
 
 /// Oat's controls, and the error that refinement ends at. Level 0 are the octree's roots, an eighth of the level's
@@ -24,6 +26,8 @@ struct VolumeSettings {
     std::size_t most_cells = 0;
     int rays = 0;  // of a sample
     std::uint64_t seed = 1;
+    /// What refinement and records follow; look-ups of the runtime know Adini alone.
+    VolumeBlend blend = VolumeBlend::Adini;
 };
 
 }  // namespace daylit

@@ -25,7 +25,7 @@ def run(*arguments, status=0):
 
 def report(*more, **keywords):
     return run("report", scene, "-o", out, "--quick", "--error", "1", "--points", "20", "--spp", "32", "--hours", "11,12",
-               "--methods", "lightmap,encodings,whole-day", "--size", "64x36", *more, **keywords)
+               "--methods", "lightmap,encodings,whole-day,volume-modes", "--size", "64x36", *more, **keywords)
 
 
 run("make", "two_rooms", "-o", scene)
@@ -38,7 +38,7 @@ rows = list(csv.DictReader((out / "report.csv").open()))
 # The same runs in all three.
 assert [run["name"] for run in data["runs"]] == [row["setting"] for row in rows]
 settings = [run["name"] for run in data["runs"] if run["method"] == "lightmap"]
-assert settings[0] == "base" and len(settings) > 5, settings
+assert settings[0] == "base" and len(settings) == 4, settings  # the base, and one of each axis
 for setting in settings:
     assert setting in text, setting
 for run_, row in zip(data["runs"], rows):
@@ -67,6 +67,23 @@ for key, what in (("bake_seconds", "wall"), ("bake_processor_seconds", "processo
     ratio = data["findings"]["whole-day"][f"day_over_hour_{what}"]
     assert abs(ratio - day[key] / one_bounce[key]) < 1e-9 * ratio
 assert "nrmse" not in one_bounce and abs(day["nrmse"] - hour["nrmse"]) < 0.02
+
+# Ways to look a volume up: all are there; with as many cells the blend of highest order is nearest to the gather itself;
+# what cannot differ does not.
+modes = {}
+for run_ in data["runs"]:
+    if run_["method"] == "volume-modes":
+        modes.setdefault(run_["axis"], []).append(run_["values"])
+assert set(modes) == {"Adini-Hermite", "uniform grid", "trilinear", "Oat", "Annen", "half gradient", "two bands",
+                      "two bands and ZH3", "four bands"}, modes.keys()
+for values in sum(modes.values(), []):
+    assert 0 < values["gather_nrmse"] < 1 and 0 < values["nrmse"] < 2 and abs(values["bias"]) < 1, values
+    assert values["file_bytes"] > 1000 and 0 < values["look_up_seconds"] < 1e-3
+for i, best in enumerate(modes["Adini-Hermite"]):
+    assert best["gather_nrmse"] < modes["trilinear"][i]["gather_nrmse"], i
+    four, two = modes["four bands"][i], modes["two bands"][i]
+    assert four["nrmse"] == best["nrmse"] and four["file_bytes"] > best["file_bytes"] > two["file_bytes"]
+    assert modes["trilinear"][i]["file_bytes"] < best["file_bytes"], "changes cost bytes"
 
 # Charts, and files that the page shows and that are there.
 svg = "{http://www.w3.org/2000/svg}"

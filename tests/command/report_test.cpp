@@ -33,6 +33,8 @@ TEST(EqualError, IsReadOffBetweenPoints) {
     ASSERT_TRUE(ratio);
     EXPECT_NEAR(ratio->ratio, std::sqrt(100.0 * 1000.0), 0.1);
     EXPECT_FALSE(ratio->at_least);
+    EXPECT_EQ(ratio->reached, 2);
+    EXPECT_EQ(ratio->of, 2);
 }
 
 TEST(EqualError, SaysWhatItCanWhereNoErrorIsReachedByBoth) {

@@ -24,7 +24,7 @@ std::vector<SweepPoint> day_gather_sweep(const BakeSettings& base) {
         SweepPoint& point = sweep.emplace_back(SweepPoint{"texels", named("texels", " x %g", factor), base});
         point.settings.tuning.texels *= factor;
     }
-    for (const double factor : {0.5, 3.0}) {
+    for (const double factor : {3.0, 0.5}) {
         SweepPoint& point = sweep.emplace_back(SweepPoint{"error", named("error", " %g", factor * base.error), base});
         point.settings.error *= factor;
     }

@@ -1,0 +1,164 @@
+#include "demo/report/volume_modes.h"
+
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <chrono>
+#include <map>
+
+#include "demo/report/equal_error.h"
+#include "engine/base/error.h"
+#include "gi/encode/encode_volume.h"
+#include "gi/encode/sweep.h"
+#include "gi/solved_day.h"
+
+namespace daylit {
+namespace {
+
+constexpr int kGatherRays = 4096;  // at a point
+constexpr int kMoreRays = 8;       // of a sample, times the plan's, so that noise does not hide what blends differ in
+constexpr int kLookUps = 50000;
+
+LightScales scales_at(const LightModel& light, double hour) {
+    return light.scales(hour, light.settings().clouds);
+}
+
+/// What the gather says at the points themselves.
+PointTruth gather_at(const VolumeEncoder& encoder, const LightBasis& basis, const LightModel& light,
+                     const PointTruth& at) {
+    PointTruth truth{at.points, at.hours, LightAtPoints(at.hours.size(), std::vector<Rgb>(at.points.size())), 0.0};
+    std::vector<std::vector<Rgb>> weights;
+    for (const double hour : at.hours) weights.push_back(basis.weights(scales_at(light, hour), hour));
+    const std::size_t components = std::size_t(basis.components);
+    tbb::parallel_for(std::size_t(0), at.points.size(), [&](std::size_t p) {
+        const std::vector<float> found = encoder.gathered(at.points[p].position, p, kGatherRays);
+        for (std::size_t h = 0; h < at.hours.size(); ++h) {
+            glsl::VolumeSh sh{};
+            for (int i = 0; i < glsl::kVolumeNumbers; ++i)
+                for (std::size_t r = 0; r < components; ++r)
+                    sh.c[i / 3][i % 3] += weights[h][r][i % 3] * found[std::size_t(i) * components + r];
+            truth.light[h][p] = glsl::volume_irradiance(sh, at.points[p].normal, 1.0f);
+        }
+    });
+    return truth;
+}
+
+double seconds_of_a_look_up(const VolumeModeLight& light, const std::vector<SurfaceSample>& points) {
+    Rgb sum(0.0f);
+    const auto start = std::chrono::steady_clock::now();
+    for (std::size_t i = 0; i < kLookUps; ++i) {
+        const SurfaceSample& p = points[i % points.size()];
+        sum += light.irradiance(p.position, p.normal);
+    }
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return std::isfinite(sum.x) ? seconds / kLookUps : 0.0;
+}
+
+RunResult judge_mode(const VolumeModePoint& point, const IrradianceVolume& volume, const PointTruth& reference,
+                     const PointTruth& gathered, const LightModel& model) {
+    const std::size_t cells = volume.tree.cells.size();
+    RunResult run{.method = "volume-modes",
+                  .axis = point.axis,
+                  .name = point.axis + ", " + std::to_string(cells) + " cells",
+                  .note = std::to_string(volume.tree.samples) + " records"};
+    LightAtPoints found;
+    for (const double hour : reference.hours) {
+        const VolumeModeLight light(volume, point.mode, volume.basis.weights(scales_at(model, hour), hour));
+        std::vector<Rgb>& at_points = found.emplace_back();
+        for (const SurfaceSample& p : reference.points) at_points.push_back(light.irradiance(p.position, p.normal));
+        if (hour == reference.hours.back())
+            run.values["look_up_seconds"] = seconds_of_a_look_up(light, reference.points);
+    }
+    run.values.merge(judge(found, reference));
+    run.values["gather_nrmse"] = judge(found, gathered).at("nrmse");
+    double p95 = 0.0;
+    for (std::size_t h = 0; h < found.size(); ++h) p95 += differences(found[h], gathered.light[h]).p95;
+    run.values["gather_p95"] = p95 / double(found.size());
+    run.values["file_bytes"] = stored_bytes(volume, point.mode);
+    return run;
+}
+
+std::vector<ChartPoint> curve(const std::vector<RunResult>& runs, const std::string& axis, const char* error) {
+    std::vector<ChartPoint> points;
+    for (const RunResult& run : runs)
+        if (run.axis == axis) points.push_back({*run.value("file_bytes"), *run.value(error), run.name});
+    return points;
+}
+
+/// What another way takes in bytes at equal error, and how far each goes.
+Finding equal_bytes(const std::vector<RunResult>& runs, const std::string& axis, const char* error,
+                    const std::string& against, const CostRatio& ratio) {
+    const std::string ours = runs.front().axis;
+    const auto best = [&](const std::string& of) {
+        const std::vector<ChartPoint> points = curve(runs, of, error);
+        return *std::min_element(points.begin(), points.end(),
+                                 [](const ChartPoint& a, const ChartPoint& b) { return a.y < b.y; });
+    };
+    const auto said = [](const ChartPoint& p) {
+        return written(p.y, Unit::Share) + " with " + written(p.x, Unit::Bytes);
+    };
+    return {"", ratio.ratio,
+            "At an equal " + against + ", " + axis + " takes " + (ratio.at_least ? "at least " : "") +
+                written(ratio.ratio, Unit::Number) + " times the bytes of " + ours + " (at " +
+                std::to_string(ratio.reached) + " of its " + std::to_string(ratio.of) +
+                " sizes; the others' errors it does not reach); its best is " + said(best(axis)) + ", that of " + ours +
+                " " + said(best(ours))};
+}
+
+std::vector<Finding> findings(const std::vector<RunResult>& runs) {
+    struct Error {
+        const char *measure, *said, *key;
+    };
+    std::vector<Finding> all;
+    for (const Error& error : {Error{"gather_nrmse", "nrmse against the gather", "gather"},
+                               Error{"gather_p95", "95th percentile against the gather", "gather_p95"},
+                               Error{"nrmse", "nrmse against the reference", "reference"}})
+        for (const auto& [axis, key] : {std::pair("uniform grid", "grid"), {"trilinear", "trilinear"}}) {
+            const auto ratio =
+                cost_at_equal_error(curve(runs, runs.front().axis, error.measure), curve(runs, axis, error.measure));
+            if (!ratio) continue;
+            all.push_back(equal_bytes(runs, axis, error.measure, error.said, *ratio));
+            all.back().key = std::string(key) + "_over_" + error.key;
+        }
+    return all;
+}
+
+}  // namespace
+
+StudyResult compare_volume_modes(const BakeSettings& base, const Judges& judges, const Progress& progress) {
+    BakeSettings settings = base;
+    settings.parts = {"volume"};
+    const BakeInput input(judges.level.loaded.scene, settings);
+    const auto part = [&](double from, double to) -> Progress {
+        return [&progress, from, to](double done) { return !progress || progress(from + (to - from) * done); };
+    };
+    const SolvedDay solved(input, part(0.0, 0.3));
+    const LightBasis basis = light_basis(solved.day.basis);
+    const LeavingLight leaving = solved.leaving();
+    VolumeSettings plan = input.plan.volume_settings;
+    plan.rays *= kMoreRays;
+    const VolumeEncoder encoder(input.scene, solved.gather, solved.hits, basis, leaving,
+                                moments(solved.day, input.light), plan, {.dropped = 0.1 * settings.error}, true);
+    const LightModel& light = judges.level.light;
+    const PointTruth gathered = gather_at(encoder, basis, light, judges.space);
+
+    StudyResult result;
+    const std::vector<VolumeModePoint> modes = volume_modes();
+    std::map<std::tuple<VolumeBlend, bool, std::size_t>, IrradianceVolume> made;  // modes that differ in bands share
+    for (std::size_t m = 0; m < modes.size(); ++m) {
+        const VolumeMode& mode = modes[m].mode;
+        const std::vector<VolumeSettings> sizes = volume_sizes(mode, plan, encoder.roots());
+        for (std::size_t i = 0; i < sizes.size(); ++i) {
+            const double share = (double(m) + double(i) / double(sizes.size())) / double(modes.size());
+            if (!part(0.3, 1.0)(share)) throw Interrupted();
+            const auto [volume, is_new] = made.try_emplace({mode.blend, mode.grid, i});
+            if (is_new) volume->second = encoder.encode(sizes[i], StageProgress{Progress{}}).volume;
+            if (volume->second.tree.empty()) throw Error("not compared", "no free space is reached");
+            result.runs.push_back(judge_mode(modes[m], volume->second, judges.space, gathered, light));
+        }
+    }
+    result.findings = findings(result.runs);
+    return result;
+}
+
+}  // namespace daylit
