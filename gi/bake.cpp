@@ -61,7 +61,7 @@ void bake_volume(const SolvedDay& solved, const Progress& progress, Baked& baked
     const BakeInput& input = solved.input;
     const LeavingLight leaving = solved.leaving();
     const LightBasis basis = light_basis(solved.day.basis);
-    const VolumeEncoder encoder(input.scene, solved.gather, solved.hits, basis, leaving,
+    const VolumeEncoder encoder(input.scene, solved.reachable, solved.gather, solved.hits, basis, leaving,
                                 moments(solved.day, input.light), input.plan.volume_settings,
                                 {.dropped = 0.1 * input.settings.error});
     EncodedVolume encoded = encoder.encode(input.plan.volume_settings, {progress, 0.9, 1.0});

@@ -1,6 +1,8 @@
 #include "gi/solved_day.h"
 
+#include <algorithm>
 #include <bit>
+#include <optional>
 
 #include "engine/base/file.h"
 #include "engine/base/random.h"
@@ -12,7 +14,7 @@
 namespace daylit {
 namespace {
 
-constexpr double kLeak = 0.1;  // of the brightness of a cell's larger part, below which the darker is shown
+constexpr double kLeak = 0.1;  // of the brightness of a cell's brightest part, below which its darkest is shown alone
 
 /// Of all that decides what is traced.
 std::uint64_t checkpoint_key(const BakeInput& input) {
@@ -96,23 +98,48 @@ class Brightness {
     std::vector<std::vector<Rgb>> weights_;
 };
 
-/// Each texel that is shown is its own row. A cell with several parts shows the largest, unless another is so much
-/// darker that this would be light through a wall: then the bright side is dark along the wall's foot.
-std::vector<std::uint32_t> rows_of_texels(const Texels& texels, const std::vector<bool>& shown,
-                                          const LightmapRows& rows) {
+/// Of the parts of a cell that are shown, the darkest when the brightest is so much brighter that a mean would be light
+/// through a wall: then the bright side is dark along the wall's foot. Not what is black and out of reach, as below the
+/// ground.
+std::optional<std::uint32_t> part_to_keep_dark(const SolvedDay& solved, const std::vector<std::uint32_t>& parts,
+                                               const Brightness& brightness) {
+    const auto darker = [&](std::uint32_t a, std::uint32_t b) { return brightness(a) < brightness(b); };
+    const auto [darkest, brightest] = std::minmax_element(parts.begin(), parts.end(), darker);
+    const double light = brightness(*darkest);
+    if (light >= kLeak * brightness(*brightest)) return std::nullopt;
+    if (light == 0.0 && !solved.reachable.space.reachable(solved.texels.above(*darkest))) return std::nullopt;
+    return *darkest;
+}
+
+/// The mean over the usable points of parts becomes the first one's light.
+void mix(const GatherHits& hits, const std::vector<std::uint32_t>& parts, std::size_t components,
+         std::vector<Rgb>& rows) {
+    std::vector<Rgb> sum(components, Rgb(0.0f));
+    float points = 0.0f;
+    for (const std::uint32_t part : parts) {
+        const auto weight = float(std::popcount(hits.usable[part]));
+        for (std::size_t r = 0; r < components; ++r) sum[r] += weight * rows[part * components + r];
+        points += weight;
+    }
+    for (std::size_t r = 0; r < components; ++r) rows[parts[0] * components + r] = sum[r] / points;
+}
+
+/// Which row each texel shows, its own but where a cell has several parts.
+std::vector<std::uint32_t> rows_of_texels(const SolvedDay& solved, const std::vector<bool>& shown, LightmapRows& rows) {
     const Brightness brightness(rows);
     std::vector<std::uint32_t> result(shown.size(), kNoTexel);
     for (std::uint32_t t = 0; t < shown.size(); ++t) {
         if (shown[t]) result[t] = t;
-        if (texels.next_part[t] == kNoTexel) continue;
-        std::uint32_t largest = kNoTexel, darkest = kNoTexel;
-        texels.for_parts(t, [&](std::uint32_t part) {
-            if (!shown[part]) return;
-            if (largest == kNoTexel || texels.points_of(part).size() > texels.points_of(largest).size()) largest = part;
-            if (darkest == kNoTexel || brightness(part) < brightness(darkest)) darkest = part;
+        const bool first = solved.texels.texel_of_cell[solved.texels.cell[t]] == t;
+        if (!first || solved.texels.next_part[t] == kNoTexel) continue;
+        std::vector<std::uint32_t> parts;
+        solved.texels.for_parts(t, [&](std::uint32_t part) {
+            if (!solved.hits.buried(part)) parts.push_back(part);
         });
-        const bool leaks = largest != kNoTexel && brightness(darkest) < kLeak * brightness(largest);
-        result[t] = leaks ? darkest : largest;
+        if (parts.empty()) continue;
+        const std::optional<std::uint32_t> dark = part_to_keep_dark(solved, parts, brightness);
+        if (!dark) mix(solved.hits, parts, solved.day.basis.components, rows.texels);
+        result[t] = dark.value_or(parts[0]);
     }
     return result;
 }
@@ -131,6 +158,7 @@ SolvedDay::SolvedDay(const BakeInput& from, const Progress& progress)
     : input(from),
       how{.rays = input.plan.rays, .bounces = input.settings.bounces, .seed = input.settings.seed},
       rays(input.scene, input.mesh),
+      reachable(input.scene, rays),
       kept(input.settings.keep_uv2 ? kept_layouts(input.scene, input.mesh) : KeptLayouts{}),
       atlas(atlas_of(input, rays, kept)),
       texels(make_parted_texels(rays, atlas)),
@@ -161,7 +189,7 @@ LightmapRows lightmap_rows(SolvedDay& solved, const StageProgress& progress) {
     result.moments = moments(solved.day, solved.input.light);
     result.row_of_pixel =
         rows_of_pixels(solved.atlas, solved.texels,
-                       rows_of_texels(solved.texels, shown(solved.atlas, solved.texels, solved.hits, open), result));
+                       rows_of_texels(solved, shown(solved.atlas, solved.texels, solved.hits, open), result));
     return result;
 }
 

@@ -5,6 +5,7 @@
 #include "gi/bake_plan.h"
 #include "gi/encode/light_rows.h"
 #include "gi/surface/kept_layout.h"
+#include "gi/surface/reachable.h"
 #include "gi/transport/day_gather/day_gather.h"
 #include "gi/transport/day_gather/probe_light.h"
 #include "gi/transport/day_gather/texel_tilts.h"
@@ -36,6 +37,7 @@ struct SolvedDay {
     const BakeInput& input;
     GatherSettings how;
     RayScene rays;
+    Reachable reachable;
     KeptLayouts kept;
     Atlas atlas;
     Texels texels;

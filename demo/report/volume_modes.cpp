@@ -137,7 +137,7 @@ StudyResult compare_volume_modes(const BakeSettings& base, const Judges& judges,
     const LeavingLight leaving = solved.leaving();
     VolumeSettings plan = input.plan.volume_settings;
     plan.rays *= kMoreRays;
-    const VolumeEncoder encoder(input.scene, solved.gather, solved.hits, basis, leaving,
+    const VolumeEncoder encoder(input.scene, solved.reachable, solved.gather, solved.hits, basis, leaving,
                                 moments(solved.day, input.light), plan, {.dropped = 0.1 * settings.error}, true);
     const LightModel& light = judges.level.light;
     const PointTruth gathered = gather_at(encoder, basis, light, judges.space);

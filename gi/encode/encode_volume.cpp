@@ -12,15 +12,13 @@
 #include "gi/encode/judged_basis.h"
 #include "gi/encode/volume_budget.h"
 #include "gi/encode/volume_fit.h"
-#include "gi/surface/swept_boxes.h"
 #include "shaders/shared/sh.h"
 
 namespace daylit {
 namespace {
 
 constexpr std::size_t kNumbers = glsl::kVolumeNumbers;
-constexpr int kSpaceCells = 128;  // along the scene's longest side, for finding what can be reached
-constexpr int kPilots = 400;      // samples that the basis is chosen by
+constexpr int kPilots = 400;  // samples that the basis is chosen by
 constexpr std::size_t kJudgedMoments = 6;
 // Far from the end of halves (65504), and far above their smallest normal number (6e-5).
 constexpr float kLargestHalf = 16384.0f, kFullHalf = 65504.0f;
@@ -31,19 +29,6 @@ constexpr float kMostWindow = 4.0f;  // the largest lambda that is tried
 
 const std::array<Vec3, 6> kSides = {Vec3(1, 0, 0),  Vec3(-1, 0, 0), Vec3(0, 1, 0),
                                     Vec3(0, -1, 0), Vec3(0, 0, 1),  Vec3(0, 0, -1)};
-
-FreeSpace reachable_space(const Scene& scene, const RayScene& rays, const std::vector<Bounds>& regions) {
-    FreeSpace space(rays, kSpaceCells);
-    const Pose pose = pose_scene(scene);
-    for (const Camera& camera : scene.cameras) space.start_at(Vec3(pose.world_from_node[std::size_t(camera.node)][3]));
-    for (const Bounds& region : regions) {
-        const Vec3 middle = 0.5f * (region.min + region.max);
-        if (!region.empty() && !space.buried(middle)) space.start_at(middle);  // a wall's inside is no place to be in
-    }
-    space.start_under_the_sky();
-    space.spread();
-    return space;
-}
 
 /// Dynamic nodes that rest inside of something solid.
 std::vector<std::string> buried_nodes(const Scene& scene, const FreeSpace& space) {
@@ -307,14 +292,14 @@ class KeptSamples {
 }  // namespace
 
 struct VolumeEncoder::State {
-    State(const Scene& scene, const GatherScene& gather, const GatherHits& hits, const LightBasis& light,
-          const LeavingLight& leaving_light, std::span<const Moment> moments, const VolumeSettings& settings,
-          const BasisSettings& basis_settings)
+    State(const Scene& scene, const Reachable& reachable, const GatherScene& gather, const GatherHits& hits,
+          const LightBasis& light, const LeavingLight& leaving_light, std::span<const Moment> moments,
+          const VolumeSettings& settings, const BasisSettings& basis_settings)
         : rays(gather.rays),
           sampling(settings),
           leaving(leaving_light),
-          regions(swept_boxes(scene)),
-          space(reachable_space(scene, rays, regions)),
+          regions(reachable.regions),
+          space(reachable.space),
           buried(buried_nodes(scene, space)),
           probes(gather, hits, leaving),
           pilots(pilot_rows(probes, space, regions, leaving.components, settings)),
@@ -327,8 +312,8 @@ struct VolumeEncoder::State {
     const RayScene& rays;
     VolumeSettings sampling;
     LeavingLight leaving;
-    std::vector<Bounds> regions;
-    FreeSpace space;
+    const std::vector<Bounds>& regions;
+    const FreeSpace& space;
     std::vector<std::string> buried;
     ProbeGather probes;
     std::vector<Rgb> pilots;
@@ -339,10 +324,11 @@ struct VolumeEncoder::State {
     std::unique_ptr<KeptSamples> kept;
 };
 
-VolumeEncoder::VolumeEncoder(const Scene& scene, const GatherScene& gather, const GatherHits& hits,
-                             const LightBasis& light, const LeavingLight& leaving, std::span<const Moment> moments,
-                             const VolumeSettings& settings, const BasisSettings& basis, bool keep_samples)
-    : state_(std::make_unique<State>(scene, gather, hits, light, leaving, moments, settings, basis)) {
+VolumeEncoder::VolumeEncoder(const Scene& scene, const Reachable& reachable, const GatherScene& gather,
+                             const GatherHits& hits, const LightBasis& light, const LeavingLight& leaving,
+                             std::span<const Moment> moments, const VolumeSettings& settings,
+                             const BasisSettings& basis, bool keep_samples)
+    : state_(std::make_unique<State>(scene, reachable, gather, hits, light, leaving, moments, settings, basis)) {
     if (keep_samples) state_->kept = std::make_unique<KeptSamples>();
 }
 

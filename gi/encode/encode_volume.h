@@ -7,6 +7,7 @@
 #include "engine/baked/irradiance_volume.h"
 #include "gi/encode/light_rows.h"
 #include "gi/encode/volume_refine.h"
+#include "gi/surface/reachable.h"
 #include "gi/transport/day_gather/probe_light.h"
 
 namespace daylit {
@@ -27,12 +28,11 @@ struct EncodedVolume {
 /// outlive this.
 class VolumeEncoder {
   public:
-    /// Where light is wanted: what cameras and moving things can reach, and open air.
     /// settings       rays and seed of samples; encode() takes the rest
     /// keep_samples   so that later encodings trace no place again
-    VolumeEncoder(const Scene& scene, const GatherScene& gather, const GatherHits& hits, const LightBasis& light,
-                  const LeavingLight& leaving, std::span<const Moment> moments, const VolumeSettings& settings,
-                  const BasisSettings& basis, bool keep_samples = false);
+    VolumeEncoder(const Scene& scene, const Reachable& reachable, const GatherScene& gather, const GatherHits& hits,
+                  const LightBasis& light, const LeavingLight& leaving, std::span<const Moment> moments,
+                  const VolumeSettings& settings, const BasisSettings& basis, bool keep_samples = false);
     ~VolumeEncoder();
 
     /// throws Error when the cells that settings ask for cannot be afforded.

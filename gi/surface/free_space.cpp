@@ -58,7 +58,18 @@ void FreeSpace::spread() {
 }
 
 bool FreeSpace::reachable(const Vec3& place) const {
-    const glm::ivec3 cell = cell_of(place);
+    const glm::ivec3 own = cell_of(place);
+    if (!inside(own)) return false;
+    if (reachable_from(own, place)) return true;
+    // The own cell's centre may lie behind a surface that this place is before.
+    for (int z = -1; z <= 1; ++z)
+        for (int y = -1; y <= 1; ++y)
+            for (int x = -1; x <= 1; ++x)
+                if ((x != 0 || y != 0 || z != 0) && reachable_from(own + glm::ivec3(x, y, z), place)) return true;
+    return false;
+}
+
+bool FreeSpace::reachable_from(const glm::ivec3& cell, const Vec3& place) const {
     if (!inside(cell) || !reached_[index(cell)]) return false;
     // A little further on, since a place on a surface, where half of what is seen lies behind it, is not free.
     const Vec3 along = place - centre(cell);

@@ -18,7 +18,8 @@ class FreeSpace {
     /// At all cells from whose centres the sky is seen straight above.
     void start_under_the_sky();
     void spread();
-    /// Whether nothing lies between a reached cell's centre and this place in it. False outside of the box.
+    /// Whether nothing lies between this place and the centre of a reached cell: its own or one beside it. False outside
+    /// of the box.
     bool reachable(const Vec3& place) const;
     /// Share of reached cells among those that a box overlaps.
     double reached_share(const Bounds& box) const;
@@ -30,6 +31,7 @@ class FreeSpace {
     Vec3 centre(const glm::ivec3& cell) const { return box_.min + (Vec3(cell) + 0.5f) * cell_; }
     bool inside(const glm::ivec3& cell) const;
     std::size_t index(const glm::ivec3& cell) const;
+    bool reachable_from(const glm::ivec3& cell, const Vec3& place) const;
     void reach(const glm::ivec3& cell);
 
     const RayScene& rays_;

@@ -14,7 +14,6 @@
 namespace daylit {
 namespace {
 
-constexpr float kSightHeight = 0.25f;        // texels above the surface: a kerb parts nothing
 constexpr std::size_t kMostCandidates = 32;  // texels beside a place
 
 class Parter {
@@ -106,15 +105,13 @@ void mark_parts(Texels& texels, std::uint32_t first) {
 
 /// Marks texels that have parts, or whose middle is out of sight from a neighbouring one's.
 void mark(const RayScene& rays, const Atlas& atlas, std::size_t chart, Texels& texels) {
-    const auto above = [&](std::uint32_t t) {
-        return texels.position[t] + kSightHeight * texels.width[t] * texels.normal[t];
-    };
     for (std::uint32_t cell = texels.first_cell[chart]; cell < texels.first_cell[chart + 1]; ++cell) {
         const std::uint32_t own = texels.texel_of_cell[cell];
         if (own == kNoTexel) continue;
         bool walled = texels.next_part[own] != kNoTexel;
         for_cells_around(atlas, texels, own, [&](std::uint32_t other) {
-            if (other > own && !in_sight(rays, above(own), above(other))) walled = true, mark_parts(texels, other);
+            if (other > own && !in_sight(rays, texels.above(own), texels.above(other)))
+                walled = true, mark_parts(texels, other);
         });
         if (walled) mark_parts(texels, own);
     }

@@ -15,7 +15,6 @@ constexpr float kSigmaOfNearness = 0.3f;  // and at most this share of the mean 
 constexpr float kReach = 2.5f;            // sigmas
 constexpr float kMinCosine = 0.9f;
 constexpr float kPlane = 0.25f;        // texels out of the tangent plane at which the weight falls to 1/e
-constexpr float kSightHeight = 0.25f;  // texels above the surface
 
 struct Cloud {
     const std::vector<Vec3>& points;

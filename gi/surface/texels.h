@@ -15,6 +15,8 @@ struct TexelPoint {
     Vec2 barycentric = Vec2(0.0f);  // weights of the triangle's second and third corner
 };
 
+inline constexpr float kSightHeight = 0.25f;  // texels above the surface, between which sight is tested
+
 /// The texels that surface lies in, numbered chart by chart, row by row; the others of a chart's grid are fetched by
 /// bilinear filtering only and filled from these.
 struct Texels {
@@ -41,6 +43,8 @@ struct Texels {
     /// parted one the part with the nearest point.
     std::uint32_t at(const Atlas& atlas, std::uint32_t triangle, const Vec2& barycentric) const;
 
+    /// A little above a texel's middle, where a kerb hides nothing.
+    Vec3 above(std::uint32_t texel) const { return position[texel] + kSightHeight * width[texel] * normal[texel]; }
     /// Calls use(texel) for this part of a cell and those after it.
     template <class Use>
     void for_parts(std::uint32_t texel, const Use& use) const {
