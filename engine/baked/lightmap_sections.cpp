@@ -1,5 +1,7 @@
 #include "engine/baked/lightmap_sections.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -225,11 +227,17 @@ DayLightmap read_lightmap_shape(const SectionFile& file) {
 DayLightmap read_lightmap(const SectionFile& file) {
     Shape shape = decode_shape(file.open("LMAP"));
     DayLightmap& map = shape.map;
-    decode_corner_uvs(file.open("LMUV", 8 * shape.corners), shape.corners, map);
-    const std::size_t patterns = pattern_count(map);
-    decode_patterns(file.open("LMPT", patterns * (sizeof(float) + 6 * std::size_t(map.basis.components))), map);
-    decode_texels(file.open("LMTX", map.texels() + 2 * coded_numbers(map, kValuePlanes)), map);
-    if (file.has("LMTI")) decode_tilts(file.open("LMTI", map.tiles() + 4 * coded_numbers(map, kValuePlanes)), map);
+    const std::size_t patterns = pattern_count(map), numbers = coded_numbers(map, kValuePlanes);
+    // Each fills members of its own.
+    tbb::parallel_invoke(
+        [&] {
+            if (file.has("LMTI")) decode_tilts(file.open("LMTI", map.tiles() + 4 * numbers), map);
+        },
+        [&] { decode_texels(file.open("LMTX", map.texels() + 2 * numbers), map); },
+        [&] {
+            decode_patterns(file.open("LMPT", patterns * (sizeof(float) + 6 * std::size_t(map.basis.components))), map);
+        },
+        [&] { decode_corner_uvs(file.open("LMUV", 8 * shape.corners), shape.corners, map); });
     return std::move(shape.map);
 }
 

@@ -1,6 +1,9 @@
 #include "engine/render/baked_light.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/packing.hpp>
 
@@ -14,11 +17,19 @@ constexpr int kPerLayer = 4;  // patterns in the channels of one layer
 /// A layer's four patterns as halves, texel by texel. planes: the first slot's numbers; slots lie `stride` apart
 std::vector<std::uint16_t> layer_halves(const DayLightmap& map, int layer, const std::int16_t* planes,
                                         std::size_t stride) {
+    std::array<float, DayLightmap::kLargestExponent + 1> scale;
+    for (std::size_t e = 0; e < scale.size(); ++e) scale[e] = std::ldexp(1.0f, -2 * int(e));
     std::vector<std::uint16_t> halves(kPerLayer * map.texels(), 0);
-    for (int slot = layer * kPerLayer; slot < std::min((layer + 1) * kPerLayer, map.slots()); ++slot)
-        for (std::size_t t = 0; t < map.texels(); ++t)
-            halves[kPerLayer * t + std::size_t(slot % kPerLayer)] = glm::packHalf1x16(
-                std::ldexp(float(planes[std::size_t(slot) * stride + t]), -2 * int(map.exponents[t])));
+    const std::size_t width = std::size_t(map.width);
+    tbb::parallel_for(0, map.height, [&](int y) {
+        for (int slot = layer * kPerLayer; slot < std::min((layer + 1) * kPerLayer, map.slots()); ++slot) {
+            const std::int16_t* plane = planes + std::size_t(slot) * stride;
+            for (std::size_t t = std::size_t(y) * width; t < (std::size_t(y) + 1) * width; ++t)
+                if (plane[t] != 0)
+                    halves[kPerLayer * t + std::size_t(slot % kPerLayer)] =
+                        glm::packHalf1x16(float(plane[t]) * scale[map.exponents[t]]);
+        }
+    });
     return halves;
 }
 
