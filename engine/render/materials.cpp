@@ -1,11 +1,15 @@
 #include "engine/render/materials.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <set>
 
 #include "engine/gl/target.h"
+#include "engine/render/mipmaps.h"
 #include "shaders/shared/frame_block.h"
 
 namespace daylit {
@@ -50,12 +54,13 @@ GlSampler sampler(const Texture& texture) {
     return s;
 }
 
-GlTexture upload(const Image8& image, bool srgb) {
+GlTexture upload(const Image8& image, const std::vector<Image8>& mips, bool srgb) {
     GlTexture texture = make_texture_2d(srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, image.width, image.height, 0);
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTextureSubImage2D(texture.get(), 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
-                        image.rgba.data());
-    glGenerateTextureMipmap(texture.get());
+    const auto level = [&](GLint number, const Image8& i) {
+        glTextureSubImage2D(texture.get(), number, 0, 0, i.width, i.height, GL_RGBA, GL_UNSIGNED_BYTE, i.rgba.data());
+    };
+    level(0, image);
+    for (std::size_t i = 0; i < mips.size(); ++i) level(GLint(i) + 1, mips[i]);
     return texture;
 }
 
@@ -126,10 +131,8 @@ Materials::Materials(const Scene& scene, const std::vector<bool>& used) : scene_
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const glsl::MaterialBlock b = block(scene.materials[i]);
         std::memcpy(bytes.data() + std::size_t(stride_) * i, &b, sizeof b);
-        if (!used[i]) continue;
-        const auto refs = slots(scene.materials[i]);
-        for (std::size_t slot = 0; slot < refs.size(); ++slot) add_texture(*refs[slot], slot == 0 || slot == 3);
     }
+    upload_textures(used);
     blocks_ = make_buffer(bytes, GL_DYNAMIC_STORAGE_BIT);
     for (const Texture& texture : scene.textures) samplers_.push_back(sampler(texture));
     // Mesa's software driver takes hundreds of fetches for it, and hangs where textureLod meets such a sampler (22.3).
@@ -138,13 +141,25 @@ Materials::Materials(const Scene& scene, const std::vector<bool>& used) : scene_
     set_fine(false);
 }
 
-void Materials::add_texture(const TextureRef& ref, bool srgb) {
-    if (ref.texture < 0) return;
-    const std::pair<int, bool> key(scene_.textures[std::size_t(ref.texture)].image, srgb);
-    if (textures_.count(key)) return;
-    const Image8& image = scene_.images[std::size_t(key.first)];
-    textures_.emplace(key, upload(image, srgb));
-    texture_bytes_ += image.rgba.size() * 4 / 3;
+void Materials::upload_textures(const std::vector<bool>& used) {
+    std::set<std::pair<int, bool>> unique;
+    for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
+        const auto refs = slots(scene_.materials[i]);
+        for (std::size_t slot = 0; used[i] && slot < refs.size(); ++slot)
+            if (refs[slot]->texture >= 0)
+                unique.emplace(scene_.textures[std::size_t(refs[slot]->texture)].image, slot == 0 || slot == 3);
+    }
+    const std::vector<std::pair<int, bool>> keys(unique.begin(), unique.end());
+    std::vector<std::vector<Image8>> mips(keys.size());
+    tbb::parallel_for(std::size_t(0), keys.size(), [&](std::size_t i) {
+        mips[i] = mipmaps(scene_.images[std::size_t(keys[i].first)], keys[i].second);
+    });
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const Image8& image = scene_.images[std::size_t(keys[i].first)];
+        textures_.emplace(keys[i], upload(image, mips[i], keys[i].second));
+        texture_bytes_ += image.rgba.size() * 4 / 3;
+    }
 }
 
 void Materials::bind_texture(GLuint unit, const TextureRef& ref, bool srgb) const {

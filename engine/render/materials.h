@@ -40,7 +40,7 @@ class Materials {
     std::size_t texture_bytes() const { return texture_bytes_; }
 
   private:
-    void add_texture(const TextureRef& ref, bool srgb);
+    void upload_textures(const std::vector<bool>& used);
     void bind_texture(GLuint unit, const TextureRef& ref, bool srgb) const;
 
     const Scene& scene_;

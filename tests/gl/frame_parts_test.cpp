@@ -6,6 +6,7 @@
 #include "engine/render/culling.h"
 #include "engine/render/draw_mesh.h"
 #include "engine/render/frame_plan.h"
+#include "engine/render/mipmaps.h"
 #include "engine/render/sun_reach.h"
 #include "engine/render/sun_shadow.h"
 
@@ -78,6 +79,38 @@ TEST(DrawMesh, moving_names_the_places_left_and_reached) {
     EXPECT_TRUE(move_draw_mesh(draw, mesh).empty());  // shadows stay where they are
     EXPECT_EQ(moves(0), 2u);
     EXPECT_EQ(moves(1), 4u);
+}
+
+TEST(Mipmaps, are_means_of_light_down_to_one_texel) {
+    // Checks of black and white, 6 x 2; then 3 x 1 and 1 x 1.
+    Image8 image{6, 2, {}};
+    for (int i = 0; i < 12; ++i) {
+        const std::uint8_t value = (i + i / 6) % 2 ? 255 : 0;
+        image.rgba.insert(image.rgba.end(), {value, value, value, value});
+    }
+    const std::vector<Image8> coded = mipmaps(image, true), plain = mipmaps(image, false);
+    ASSERT_EQ(coded.size(), 2u);
+    EXPECT_EQ(coded[0].width, 3);
+    EXPECT_EQ(coded[0].height, 1);
+    EXPECT_EQ(coded[1].rgba.size(), 4u);
+    for (const Image8& level : coded)
+        for (std::size_t i = 0; i < level.rgba.size(); ++i) EXPECT_EQ(level.rgba[i], i % 4 == 3 ? 128 : 188) << i;
+    for (const Image8& level : plain)
+        for (const std::uint8_t value : level.rgba) EXPECT_EQ(value, 128);
+}
+
+TEST(Mipmaps, odd_sides_lose_no_texel_and_one_colour_stays) {
+    Image8 image{5, 1, std::vector<std::uint8_t>(20, 0)};
+    image.rgba[16] = 240;  // the last one's red
+    const std::vector<Image8> levels = mipmaps(image, false);
+    ASSERT_EQ(levels.size(), 2u);
+    EXPECT_EQ(levels[0].rgba[0], 0);
+    EXPECT_EQ(levels[0].rgba[4], 80);
+    EXPECT_EQ(levels[1].rgba[0], 40);
+    for (int value = 0; value < 256; ++value)
+        for (const bool srgb : {false, true})
+            EXPECT_EQ(mipmaps({3, 3, std::vector<std::uint8_t>(36, std::uint8_t(value))}, srgb)[0].rgba,
+                      std::vector<std::uint8_t>(4, std::uint8_t(value)));
 }
 
 TEST(Culling, keeps_what_may_be_seen_and_drops_what_is_outside) {
