@@ -2,6 +2,7 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,7 @@ namespace {
 
 constexpr int kMaxChannels = 64;
 constexpr std::size_t kMaxFileBytes = std::size_t(1) << 30;
+constexpr int kPngLevel = 3;  // zlib's: a twentieth more bytes than its default 6, in half the time
 // What a file of few bytes may declare: 4 Mpixel and beyond them no more than any honest compression reaches.
 constexpr std::size_t kFreePixels = std::size_t(1) << 22, kPixelsPerByte = 4096;
 
@@ -233,10 +235,14 @@ void write_image(const std::filesystem::path& path, const Image& image, const st
         return write_pixels(path, "openexr", spec, OIIO::TypeFloat, image.pixels.data());
     }
     spec.attribute("oiio:ColorSpace", "sRGB");
-    std::vector<std::uint8_t> coded;
-    coded.reserve(3 * image.pixels.size());
-    for (const Rgb& pixel : image.pixels)
-        for (int c = 0; c < 3; ++c) coded.push_back(std::uint8_t(encode_srgb(pixel[c]) * 255.0f + 0.5f));
+    spec.attribute("png:compressionLevel", kPngLevel);
+    std::vector<std::uint8_t> coded(3 * image.pixels.size());
+    tbb::parallel_for(0, image.height, [&](int y) {
+        const std::size_t row = std::size_t(image.width) * std::size_t(y);
+        for (std::size_t i = row; i < row + std::size_t(image.width); ++i)
+            for (int c = 0; c < 3; ++c)
+                coded[3 * i + std::size_t(c)] = std::uint8_t(encode_srgb(image.pixels[i][c]) * 255.0f + 0.5f);
+    });
     write_pixels(path, "png", spec, OIIO::TypeUInt8, coded.data());
 }
 
