@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <future>
 
 #include "engine/base/error.h"
 #include "engine/base/exposure.h"
@@ -54,9 +55,12 @@ struct Photographer::State {
           size(parse_size(o.view.size)),
           loaded(load(o.scene, o.light)),
           moves(parse_moves(loaded.scene, o.view.moves)),
+          coming_light(std::async(
+              std::launch::async,
+              [this] { return LightModel(loaded.light, placed_lights(loaded.scene, pose_scene(loaded.scene))); })),
           context(open_context(o.context)),
           renderer(loaded.scene, loaded.baked ? &*loaded.baked : nullptr),
-          light(loaded.light, placed_lights(loaded.scene, pose_scene(loaded.scene))) {}
+          light(coming_light.get()) {}
 
     PictureOptions options;
     Layer layer;
@@ -65,6 +69,7 @@ struct Photographer::State {
     Size size;
     LoadedScene loaded;
     std::vector<NodeMove> moves;
+    std::future<LightModel> coming_light;  // its sky takes as long as the renderer's textures
     std::unique_ptr<GlContext> context;
     Renderer renderer;
     LightModel light;
