@@ -160,10 +160,10 @@ DrawCount SunShadow::draw_veils(DrawScene& scene, const Mat4& matrix, int layer)
     glViewport(0, 0, veil_texels(texels_), veil_texels(texels_));
     bind_texture(7, veils_.get());
     GLuint found = GL_TRUE;
-    for (int i = 0; i < kVeils; ++i) {
+    // A look-up goes no further than the first layer that holds nothing, so what lies behind that may stay as it is.
+    for (int i = 0; i < kVeils && found; ++i) {
         glNamedFramebufferTextureLayer(fbo, GL_COLOR_ATTACHMENT0, veils_.get(), 0, layer * kVeils + i);
         glClearNamedFramebufferfv(fbo, GL_COLOR, 0, nothing);
-        if (!found) continue;
         glClearNamedFramebufferfv(fbo, GL_DEPTH, 0, &far);
         glBeginQuery(GL_ANY_SAMPLES_PASSED, veils_found_.get());
         count.add(scene.draw_veils(matrix, frustum(matrix, false), i == 0 ? -1 : layer * kVeils + i - 1));
