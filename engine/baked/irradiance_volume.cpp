@@ -1,5 +1,8 @@
 #include "engine/baked/irradiance_volume.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <glm/gtc/packing.hpp>
 
@@ -7,6 +10,7 @@ namespace daylit {
 namespace {
 
 constexpr std::size_t kNumbers = glsl::kVolumeNumbers;
+constexpr std::size_t kAtOnce = 256;  // records of a block, whose numbers stay in the cache from component to component
 
 }  // namespace
 
@@ -19,23 +23,26 @@ std::vector<Vec4> IrradianceVolume::records(std::span<const Rgb> weights) const 
     const std::vector<float> sides = record_sides(tree);
     std::vector<Vec4> result(kNumbers * tree.records(), Vec4(0.0f));
     const std::size_t count = tree.samples;
-    std::vector<float> step(count);  // per metre, of a record's changes
-    for (std::size_t r = 0; r < weights.size(); ++r) {
-        for (std::size_t s = 0; s < count; ++s)
-            step[s] = glm::unpackHalf1x16(change_scale[r * count + s]) / (127.0f * sides[s]);
-        for (std::size_t i = 0; i < kNumbers; ++i) {
-            const float weight = weights[r][glm::length_t(i % 3)];
-            if (weight == 0.0f) continue;
-            const std::uint16_t* value = values.data() + (r * kNumbers + i) * count;
-            for (std::size_t s = 0; s < count; ++s)
-                result[s * kNumbers + i].x += weight * glm::unpackHalf1x16(value[s]);
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                const std::int8_t* change = changes.data() + ((r * 3 + axis) * kNumbers + i) * count;
-                for (std::size_t s = 0; s < count; ++s)
-                    result[s * kNumbers + i][glm::length_t(1 + axis)] += weight * step[s] * float(change[s]);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kAtOnce), [&](const auto& range) {
+        std::vector<float> step(range.size());  // per metre, of a record's changes
+        for (std::size_t r = 0; r < weights.size(); ++r) {
+            for (std::size_t s = range.begin(); s < range.end(); ++s)
+                step[s - range.begin()] = glm::unpackHalf1x16(change_scale[r * count + s]) / (127.0f * sides[s]);
+            for (std::size_t i = 0; i < kNumbers; ++i) {
+                const float weight = weights[r][glm::length_t(i % 3)];
+                if (weight == 0.0f) continue;
+                const std::uint16_t* value = values.data() + (r * kNumbers + i) * count;
+                for (std::size_t s = range.begin(); s < range.end(); ++s)
+                    result[s * kNumbers + i].x += weight * glm::unpackHalf1x16(value[s]);
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    const std::int8_t* change = changes.data() + ((r * 3 + axis) * kNumbers + i) * count;
+                    for (std::size_t s = range.begin(); s < range.end(); ++s)
+                        result[s * kNumbers + i][glm::length_t(1 + axis)] +=
+                            weight * step[s - range.begin()] * float(change[s]);
+                }
             }
         }
-    }
+    });
     fill_hanging(tree, result);
     return result;
 }
