@@ -109,4 +109,9 @@ Image read_texture(GLuint texture, int width, int height) {
     return image;
 }
 
+bool software_driver() {
+    const std::string name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    return name.find("llvmpipe") != std::string::npos || name.find("softpipe") != std::string::npos;
+}
+
 }  // namespace daylit

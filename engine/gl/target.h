@@ -38,6 +38,9 @@ GlBuffer make_buffer(const std::vector<T>& values, GLbitfield flags = 0) {
     return make_buffer(std::as_bytes(std::span(values)), flags);
 }
 
+/// Whether the current context draws on the CPU.
+bool software_driver();
+
 /// Level 0 of a 2-D colour texture as linear floats, row 0 on top (GL has it at the bottom).
 Image read_texture(GLuint texture, int width, int height);
 

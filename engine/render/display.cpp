@@ -7,6 +7,11 @@
 #include "engine/render/frame_plan.h"
 
 namespace daylit {
+namespace {
+
+constexpr std::uint16_t kNoCluster = 65535;
+
+}  // namespace
 
 void CameraTarget::resize(int width, int height, int samples) {
     if (width == width_ && height == height_ && samples == samples_) return;
@@ -22,6 +27,7 @@ void CameraTarget::resize(int width, int height, int samples) {
     light_ = make_texture_2d(GL_RGBA32F, width * samples, height * samples);
     depth_ = make_texture_2d(GL_DEPTH_COMPONENT32F, width * samples, height * samples);
     framebuffer_ = make_framebuffer({light_.get()}, depth_.get());
+    clusters_ = GlTexture();
     pixels_ = GlTexture();
     pixels_framebuffer_ = GlFramebuffer();
     if (samples > 1) pixels_ = make_texture_2d(GL_RGBA32F, width, height);
@@ -38,6 +44,37 @@ void CameraTarget::bind_and_clear() const {
     const float black[4] = {0, 0, 0, 0}, far = 0.0f;
     glClearNamedFramebufferfv(framebuffer_.get(), GL_COLOR, 0, black);
     glClearNamedFramebufferfv(framebuffer_.get(), GL_DEPTH, 0, &far);
+}
+
+void CameraTarget::bind() const {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+}
+
+void CameraTarget::bind_clusters() {
+    if (!clusters_.get()) {
+        const TextureLook nearest{GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE, GL_NONE};
+        clusters_ = make_texture_2d(GL_R16UI, width_ * samples_, height_ * samples_, 1, nearest);
+        clusters_framebuffer_ = make_framebuffer({clusters_.get()}, depth_.get());
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, clusters_framebuffer_.get());
+    const GLuint none[4] = {kNoCluster, 0, 0, 0};
+    glClearNamedFramebufferuiv(clusters_framebuffer_.get(), GL_COLOR, 0, none);
+}
+
+std::vector<bool> CameraTarget::seen_clusters() const {
+    std::vector<std::uint16_t> numbers(std::size_t(width_ * samples_) * std::size_t(height_ * samples_));
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTextureImage(clusters_.get(), 0, GL_RED_INTEGER, GL_UNSIGNED_SHORT, GLsizei(2 * numbers.size()),
+                      numbers.data());
+    std::vector<bool> seen(kNoCluster + 1);
+    std::uint16_t last = kNoCluster;
+    for (const std::uint16_t number : numbers) {
+        if (number == last) continue;
+        seen[number] = true;
+        last = number;
+    }
+    seen[kNoCluster] = true;  // one that has this number cannot be told from none
+    return seen;
 }
 
 void CameraTarget::resolve(Programs& programs) const {

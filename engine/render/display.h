@@ -16,6 +16,11 @@ class CameraTarget {
     int samples_per_side() const { return samples_; }
 
     void bind_and_clear() const;
+    /// Numbers of clusters in place of light, over the same depth.
+    void bind_clusters();
+    void bind() const;
+    /// Which numbers some pixel has.
+    std::vector<bool> seen_clusters() const;
     /// From samples to pixels.
     void resolve(Programs& programs) const;
     /// Pixels, after resolve() where there are several samples.
@@ -27,8 +32,8 @@ class CameraTarget {
 
   private:
     int width_ = 0, height_ = 0, samples_ = 0;
-    GlTexture light_, depth_, pixels_, grid_;
-    GlFramebuffer framebuffer_, pixels_framebuffer_, grid_framebuffer_;
+    GlTexture light_, depth_, clusters_, pixels_, grid_;
+    GlFramebuffer framebuffer_, clusters_framebuffer_, pixels_framebuffer_, grid_framebuffer_;
     int grid_width_ = 0, grid_height_ = 0;
 };
 

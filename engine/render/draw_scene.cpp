@@ -68,7 +68,8 @@ std::vector<std::pair<Lights, DrawList>> DrawScene::lists_by_lights(const Geomet
     const bool standing = parts[0] && &geometry == &*parts[0], known = cull && standing;
     for (std::uint32_t c = batch.first_cluster; c < batch.first_cluster + batch.cluster_count; ++c) {
         const Cluster& cluster = geometry.mesh().clusters[c];
-        if (cull && !may_see(frustum, cluster.bounds)) {
+        const bool hidden = known && !seen_clusters.empty() && !seen_clusters[c % seen_clusters.size()];
+        if (hidden || (cull && !may_see(frustum, cluster.bounds))) {
             ++count.clusters_culled;
             continue;
         }
@@ -91,11 +92,14 @@ bool DrawScene::moved_in(const Frustum& frustum, std::uint64_t since) const {
 }
 
 DrawCount DrawScene::draw_coverage(const Mat4& clip_from_world, const Frustum& frustum, CoverageFor purpose) {
-    const bool for_light = purpose != CoverageFor::Eye;
+    const bool for_eye = purpose == CoverageFor::Eye || purpose == CoverageFor::EyeAndClusters, for_light = !for_eye;
     DrawCount count;
     for (const std::optional<Geometry>& part : parts) {
-        if (!part || (purpose == CoverageFor::Clusters && &part != &parts[0])) continue;
+        const bool numbered =
+            (purpose == CoverageFor::Clusters || purpose == CoverageFor::EyeAndClusters) && &part == &parts[0];
+        if (!part || (purpose == CoverageFor::Clusters && !numbered)) continue;
         part->bind();
+        if (for_eye) glColorMask(numbered, numbered, numbered, numbered);
         // Whole faces first, in as few calls as there are culling states; then those with holes, one a material.
         DrawList whole[2];
         for (const Batch& batch : part->mesh().batches) {
@@ -107,7 +111,7 @@ DrawCount DrawScene::draw_coverage(const Mat4& clip_from_world, const Frustum& f
         for (int culled = 0; culled < 2; ++culled) {
             if (whole[culled].empty()) continue;
             std::vector<std::string> defines;
-            if (purpose == CoverageFor::Clusters) defines.push_back("CLUSTERS");
+            if (numbered) defines.push_back("CLUSTERS");
             const Program& program = programs.get("depth.vert", "depth.frag", defines);
             program.use();
             program.set("clip_from_world", clip_from_world);
@@ -124,7 +128,7 @@ DrawCount DrawScene::draw_coverage(const Mat4& clip_from_world, const Frustum& f
             if (list.empty()) continue;
             std::vector<std::string> defines = coverage_defines(material(batch), batch.vertex_colors);
             defines.push_back("MASK");
-            if (purpose == CoverageFor::Clusters) defines.push_back("CLUSTERS");
+            if (numbered) defines.push_back("CLUSTERS");
             const Program& program = programs.get("depth.vert", "depth.frag", defines);
             program.use();
             program.set("clip_from_world", clip_from_world);
@@ -134,6 +138,7 @@ DrawCount DrawScene::draw_coverage(const Mat4& clip_from_world, const Frustum& f
         }
     }
     cull_faces(false);
+    if (for_eye) glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     return count;
 }
 
@@ -145,8 +150,8 @@ void DrawScene::draw_clusters(const Mat4& clip_from_world, const Frustum& frustu
     draw_coverage(clip_from_world, frustum, CoverageFor::Clusters);
 }
 
-DrawCount DrawScene::draw_depth(const Mat4& clip_from_world, const Frustum& frustum) {
-    return draw_coverage(clip_from_world, frustum, CoverageFor::Eye);
+DrawCount DrawScene::draw_depth(const Mat4& clip_from_world, const Frustum& frustum, bool clusters) {
+    return draw_coverage(clip_from_world, frustum, clusters ? CoverageFor::EyeAndClusters : CoverageFor::Eye);
 }
 
 DrawCount DrawScene::draw_veils(const Mat4& clip_from_world, const Frustum& frustum, int known_layer) {

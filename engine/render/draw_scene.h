@@ -67,6 +67,8 @@ struct DrawScene {
     std::uint64_t standing_version = 0;  // as version, of what stands alone
     std::vector<LampBits> lamp_bits;     // by cluster of what stands; empty: every lamp may light everything
     SunSplit sun_split;
+    std::vector<bool> seen_clusters;  // of what stands, by number modulo the size: draw_surfaces() leaves out the
+                                      // others; empty: not known, all may be seen
     VolumeObjects volume_objects;  // of what moves
     std::vector<Bounds> moved;  // where those were and are that moved from the version before to this one
 
@@ -81,13 +83,14 @@ struct DrawScene {
     DrawCount draw_veils(const Mat4& clip_from_world, const Frustum& frustum, int known_layer);
     /// Numbers of the clusters of what stands, nearest first, into an unsigned target with depth.
     void draw_clusters(const Mat4& clip_from_world, const Frustum& frustum);
-    /// Depth of what the camera sees, faces that turn away culled unless double-sided.
-    DrawCount draw_depth(const Mat4& clip_from_world, const Frustum& frustum);
+    /// Depth of what the camera sees, faces that turn away culled unless double-sided. clusters: as draw_clusters()
+    /// too.
+    DrawCount draw_depth(const Mat4& clip_from_world, const Frustum& frustum, bool clusters);
     /// Shaded OPAQUE and MASK surfaces as the camera sees them; `frame_defines` on top of the material's own.
     DrawCount draw_surfaces(const FrameDefines& frame_defines, const Frustum& frustum);
 
   private:
-    enum class CoverageFor { Light, Eye, Clusters };
+    enum class CoverageFor { Light, Eye, Clusters, EyeAndClusters };
     DrawCount draw_coverage(const Mat4& clip_from_world, const Frustum& frustum, CoverageFor purpose);
     std::vector<std::pair<Lights, DrawList>> lists_by_lights(const Geometry& geometry, const Batch& batch,
                                                              const Frustum& frustum, DrawCount& count) const;

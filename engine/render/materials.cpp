@@ -64,11 +64,6 @@ GlTexture upload(const Image8& image, const std::vector<Image8>& mips, bool srgb
     return texture;
 }
 
-bool software_driver() {
-    const std::string name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-    return name.find("llvmpipe") != std::string::npos || name.find("softpipe") != std::string::npos;
-}
-
 bool has_extension(const char* name) {
     GLint count = 0;
     glGetIntegerv(GL_NUM_EXTENSIONS, &count);

@@ -103,6 +103,7 @@ struct Renderer::State {
     CameraTarget target;
     GlBuffer frame_buffer;
     GlVertexArray no_attributes;  // for full-screen triangles
+    bool software = software_driver();
     Layer shown = Layer::Final;
     double ev = 0.0;
 
@@ -359,10 +360,14 @@ FrameReport Renderer::draw(const FrameSettings& frame) {
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, s.frame_buffer.get());
 
     s.target.bind_and_clear();
+    s.draw.seen_clusters.clear();
     passes.run(PassKind::Depth, [&] {
-        glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-        const DrawCount count = s.draw.draw_depth(block.clip_from_world, seen);
-        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+        // Reading back costs nothing where the CPU draws: what is hidden is then neither drawn nor compiled for.
+        const bool clusters = s.software && frame.cull && s.draw.parts[0];
+        if (clusters) s.target.bind_clusters();
+        const DrawCount count = s.draw.draw_depth(block.clip_from_world, seen, clusters);
+        if (clusters) s.draw.seen_clusters = s.target.seen_clusters();
+        s.target.bind();
         return count;
     });
     passes.run(PassKind::Surfaces, [&] {

@@ -214,6 +214,30 @@ TEST_F(RendererTest, culling_does_not_change_the_picture_gl) {
     EXPECT_EQ(a.pixels, b.pixels);
 }
 
+TEST_F(RendererTest, what_walls_hide_is_not_drawn_where_the_cpu_draws_gl) {
+    // A floor, a wall that hides all but its rim, things of their own material behind and before it; then the wall
+    // gone.
+    const auto draw = [&](bool wall, bool cull) {
+        std::vector<Primitive> quads = {ground(Vec3(0, -1, 0), 0.5f, 0.5f, 1), ground(Vec3(0, 1, 0), 0.1f, 0.1f, 2),
+                                        ground(Vec3(0, -2, 0), 3, 3, 0)};
+        if (wall) quads.push_back(ground(Vec3(0), 0.9f, 0.9f, 3));
+        const Scene scene =
+            scene_of(quads, {lambert(Rgb(0.5f)), lambert(Rgb(0.6f)), lambert(Rgb(0.7f)), lambert(Rgb(0.8f))});
+        Renderer renderer(scene, nullptr);
+        renderer.set_lighting(one_sun(Vec3(0.3f, 1, 0.2f), 1000.0f));
+        FrameSettings frame = frame_of(from_above(2.0f), 40, 40);
+        frame.cull = cull;
+        const FrameReport report = renderer.draw(frame);
+        return std::pair(report.objects_drawn, renderer.read_radiance().pixels);
+    };
+    const auto hidden = draw(true, true), all = draw(true, false), open = draw(false, true);
+    EXPECT_EQ(all.first, 4);
+    const std::string driver = context_->description();
+    EXPECT_EQ(hidden.first, driver.find("llvmpipe") != std::string::npos ? 3 : 4) << driver;
+    EXPECT_EQ(open.first, 3);
+    EXPECT_EQ(hidden.second, all.second);
+}
+
 TEST_F(RendererTest, what_is_left_out_in_the_dark_does_not_change_the_picture_gl) {
     std::vector<Primitive> quads = {ground(Vec3(0, 4, 0), 3, 3, 0)};  // a roof over a floor of tiles
     for (int i = 0; i < 400; ++i)
