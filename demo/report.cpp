@@ -7,8 +7,8 @@
 #include "demo/commands.h"
 #include "demo/options.h"
 #include "demo/parse.h"
+#include "demo/report/chosen.h"
 #include "demo/report/pieces.h"
-#include "demo/report/study.h"
 #include "demo/sample_points.h"
 #include "engine/base/error.h"
 #include "engine/base/exposure.h"
@@ -74,57 +74,6 @@ BakeSettings base_settings(const ReportOptions& options, const LoadedScene& load
     base.seed = options.seed;
     if (options.quick) base.from_hour = hours.front(), base.to_hour = hours.back();
     return base;
-}
-
-std::vector<ReportStudy> studies_of(const ReportOptions& options, const BakeSettings& base) {
-    BakeSettings day = base, few = base;
-    day.from_hour = 0.0, day.to_hour = 24.0;
-    constexpr double kQuickEvery = 1.0 / 3.0, kQuickCells = 0.25;  // hours; of the plan's
-    if (options.quick) day.every_hours = std::min(day.every_hours, kQuickEvery), few.tuning.cells *= kQuickCells;
-    return report_studies(few, day);
-}
-
-/// What the report is about; the path tracer is always compared with.
-struct Chosen {
-    std::vector<ReportMethod> methods;
-    std::vector<ReportStudy> studies;
-
-    bool wants(bool in_space) const {
-        const auto judged_there = [&](const auto& m) { return m.in_space == in_space; };
-        return std::any_of(methods.begin(), methods.end(), judged_there) ||
-               std::any_of(studies.begin(), studies.end(), judged_there);
-    }
-};
-
-/// The first point of each axis: sweeps begin with what costs least.
-std::vector<SweepPoint> one_an_axis(const std::vector<SweepPoint>& sweep) {
-    std::vector<SweepPoint> result;
-    for (const SweepPoint& point : sweep)
-        if (result.empty() || point.axis != result.back().axis) result.push_back(point);
-    return result;
-}
-
-Chosen chosen(const ReportOptions& options, const BakeSettings& base) {
-    Chosen all{report_methods(base), studies_of(options, base)};
-    for (ReportMethod& m : all.methods)
-        if (options.quick) m.sweep = one_an_axis(m.sweep);
-    if (options.methods == "all") return all;
-    Chosen result;
-    std::string names;
-    for (const ReportMethod& m : all.methods) names += ", " + m.name;
-    for (const ReportStudy& s : all.studies) names += ", " + s.name;
-    for (const std::string& name : split(options.methods, ',')) {
-        const auto named = [&](const auto& m) { return m.name == name; };
-        const auto method = std::find_if(all.methods.begin(), all.methods.end(), named);
-        const auto study = std::find_if(all.studies.begin(), all.studies.end(), named);
-        if (method != all.methods.end())
-            result.methods.push_back(*method);
-        else if (study != all.studies.end())
-            result.studies.push_back(*study);
-        else
-            throw UsageError("--methods", "'" + name + "' is not one of all" + names);
-    }
-    return result;
 }
 
 std::vector<ViewAt> views_of(const ReportOptions& options, const LevelAtRest& level, const std::vector<double>& hours) {
@@ -216,7 +165,7 @@ class ReportMaker {
           picture_hours_(parse_hours("--picture-hours", options.picture_hours)),
           level_(options.scene),
           base_(base_settings(options, level_.loaded, hours_)),
-          chosen_(chosen(options, base_)) {
+          chosen_(chosen(options.methods, options.quick, base_)) {
         if (level_.mesh.triangle_count() == 0)
             throw Error(options.scene.scene, "has no triangles, so there is nothing to light and to report on");
     }

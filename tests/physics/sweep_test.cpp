@@ -4,6 +4,7 @@
 #include <set>
 
 #include "gi/bake_plan.h"
+#include "gi/encode/sweep.h"
 #include "gi/transport/day_gather/sweep.h"
 
 namespace daylit {
@@ -37,6 +38,23 @@ TEST(Sweep, PointsOfTheGatherVaryWhatTheyName) {
         }
     }
     EXPECT_EQ(axes, (std::set<std::string>{"rays", "texels", "error"}));
+}
+
+TEST(Sweep, PointsOfTheVolumeVaryWhatTheyName) {
+    BakeSettings base;
+    const VolumeSettings plan = plan_of(base).volume_settings;
+    ASSERT_GT(plan.most_cells, 0u);
+    std::set<std::string> axes;
+    for (const SweepPoint& point : volume_sweep(base)) {
+        axes.insert(point.axis);
+        const VolumeSettings swept = plan_of(point.settings).volume_settings;
+        EXPECT_NE(swept.most_cells, plan.most_cells) << point.name;
+        EXPECT_EQ(swept.rays != plan.rays, point.axis == "error") << point.name;
+        if (point.name == "cells x 0.25") {
+            EXPECT_EQ(swept.most_cells, plan.most_cells / 4);
+        }
+    }
+    EXPECT_EQ(axes, (std::set<std::string>{"cells", "error"}));
 }
 
 }  // namespace
