@@ -5,6 +5,24 @@
 #include "demo/report/whole_day.h"
 
 namespace daylit {
+namespace {
+
+constexpr const char* kEncodings =
+    "How one day's lightmaps are stored: as bakes do, in tiles of few patterns (at rising errors); by the scheme of "
+    "Bahnsen et al. 2012, unweighted principal components over all texels; as frames in half floats, all of them or "
+    "those that the paper's test of intervals keeps. Bytes are those of the light alone; worst hours are judged "
+    "against the uncompressed lightmap.";
+constexpr const char* kWholeDay =
+    "What a whole day costs beside one hour: lightmaps with the same rays per texel, which are traced once for all "
+    "hours.";
+constexpr const char* kVolumeModes =
+    "How an irradiance volume is kept and looked up: cells of one size or an octree; corners blended trilinearly, by "
+    "Oat's extrapolation, by Annen's distances to the power -4, with half gradients or by Adini-Hermite, as the "
+    "runtime does; two to four bands of spherical harmonics, two with a guessed third (ZH3). Octrees are refined and "
+    "records fitted for each blend, from samples of eight times a bake's rays. Irradiance has no part of the fourth "
+    "band, which costs bytes alone. Normals are even over the sphere.";
+
+}  // namespace
 
 void to_json(nlohmann::json& json, const Finding& finding) {
     json = {{"key", finding.key}, {"value", finding.value}, {"text", finding.text}};
@@ -23,32 +41,14 @@ void from_json(const nlohmann::json& json, StudyResult& study) {
 }
 
 std::vector<ReportStudy> report_studies(const BakeSettings& base, const BakeSettings& day) {
-    std::vector<ReportStudy> studies;
-    studies.push_back(
-        {"encodings",
-         "How one day's lightmaps are stored: as bakes do, in tiles of few patterns (at rising errors); by "
-         "the scheme of Bahnsen et al. 2012, unweighted principal components over all texels; as frames in "
-         "half floats, all of them or those that the paper's test of intervals keeps. Bytes are those of "
-         "the light alone; worst hours are judged against the uncompressed lightmap.",
-         false, [day](const Judges& judges, const Progress& progress) {
-             return compare_lightmap_encodings(day, judges, progress);
-         }});
-    studies.push_back(
-        {"whole-day",
-         "What a whole day costs beside one hour: lightmaps with the same rays per texel, which are traced "
-         "once for all hours.",
-         false,
-         [day](const Judges& judges, const Progress& progress) { return compare_whole_day(day, judges, progress); }});
-    studies.push_back(
-        {"volume-modes",
-         "How an irradiance volume is kept and looked up: cells of one size or an octree; corners blended "
-         "trilinearly, by Oat's extrapolation, by Annen's distances, with half gradients or by "
-         "Adini-Hermite, as the runtime does; two to four bands of spherical harmonics. Octrees are refined "
-         "and records fitted for each blend. Normals are even over the sphere.",
-         true, [base](const Judges& judges, const Progress& progress) {
-             return compare_volume_modes(base, judges, progress);
-         }});
-    return studies;
+    const auto with = [](const auto& study, const BakeSettings& settings) {
+        return [study, settings](const Judges& judges, const Progress& progress) {
+            return study(settings, judges, progress);
+        };
+    };
+    return {{"encodings", kEncodings, false, with(compare_lightmap_encodings, day)},
+            {"whole-day", kWholeDay, false, with(compare_whole_day, day)},
+            {"volume-modes", kVolumeModes, true, with(compare_volume_modes, base)}};
 }
 
 }  // namespace daylit

@@ -57,7 +57,8 @@ Octree octree_of(int level, float deeper = 0.0f) {
 }
 
 Vec3 random_direction(Random& random) {
-    const float z = 2.0f * random.next() - 1.0f, around = 2.0f * float(kPi) * random.next(), r = std::sqrt(1.0f - z * z);
+    const float z = 2.0f * random.next() - 1.0f, around = 2.0f * float(kPi) * random.next(),
+                r = std::sqrt(1.0f - z * z);
     return Vec3(r * std::cos(around), r * std::sin(around), z);
 }
 
