@@ -1,7 +1,5 @@
 #include "engine/baked/integer_coding.h"
 
-#include <algorithm>
-
 namespace daylit {
 
 void put_integers(ByteWriter& w, const std::vector<std::int16_t>& values) {
@@ -23,16 +21,6 @@ std::vector<std::int16_t> get_integers(ByteReader& r, std::size_t count) {
         values[i] = std::int16_t(folded & 1 ? -(folded + 1) / 2 : folded / 2);
     }
     return values;
-}
-
-std::int16_t predicted_texel(const std::int16_t* plane, int width, int side, int x, int y) {
-    const std::int16_t* at = plane + std::ptrdiff_t(y) * width + x;
-    const bool has_left = x % side != 0, has_above = y % side != 0;
-    if (!has_left) return has_above ? at[-width] : std::int16_t(0);
-    const int left = at[-1];
-    if (!has_above) return std::int16_t(left);
-    const int above = at[-width], corner = at[-width - 1];
-    return std::int16_t(std::clamp(left + above - corner, std::min(left, above), std::max(left, above)));
 }
 
 }  // namespace daylit

@@ -1,5 +1,7 @@
 #pragma once
 // Small integers as bytes that a general compressor makes much of: signs folded in, low bytes apart from high ones.
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -12,6 +14,14 @@ std::vector<std::int16_t> get_integers(ByteReader& r, std::size_t count);
 
 /// What a texel of a plane is expected to be from those left of it and above it in its tile (the median predictor of
 /// Weinberger, Seroussi and Sapiro, LOCO-I, 2000). Tiles are squares of `side` texels from the plane's corner.
-std::int16_t predicted_texel(const std::int16_t* plane, int width, int side, int x, int y);
+inline std::int16_t predicted_texel(const std::int16_t* plane, int width, int side, int x, int y) {
+    const std::int16_t* at = plane + std::ptrdiff_t(y) * width + x;
+    const bool has_left = x % side != 0, has_above = y % side != 0;
+    if (!has_left) return has_above ? at[-width] : std::int16_t(0);
+    const int left = at[-1];
+    if (!has_above) return std::int16_t(left);
+    const int above = at[-width], corner = at[-width - 1];
+    return std::int16_t(std::clamp(left + above - corner, std::min(left, above), std::max(left, above)));
+}
 
 }  // namespace daylit
