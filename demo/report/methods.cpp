@@ -1,9 +1,9 @@
 #include "demo/report/methods.h"
 
-#include <chrono>
 #include <cmath>
 
 #include "demo/lightmap_points.h"
+#include "demo/report/spent.h"
 #include "gi/encode/sweep.h"
 #include "gi/transport/day_gather/sweep.h"
 
@@ -16,9 +16,9 @@ constexpr int kLookUps = 200000;
 template <class LookUp>
 double seconds_of_one(const LookUp& look_up) {
     Rgb sum(0.0f);
-    const auto start = std::chrono::steady_clock::now();
+    const double start = thread_seconds();
     for (int i = 0; i < kLookUps; ++i) sum += look_up(std::size_t(i));
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = thread_seconds() - start;
     return std::isfinite(sum.x) ? seconds / kLookUps : 0.0;
 }
 

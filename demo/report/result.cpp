@@ -28,7 +28,7 @@ constexpr Measure kMeasures[] = {
     {"peak_bytes", "peak memory", Unit::Bytes, false,
      "the most resident memory that the bake had beyond what was there before"},
     {"file_bytes", "file", Unit::Bytes, true, "size of the baked file"},
-    {"look_up_seconds", "look-up", Unit::Seconds, true, "one look-up on the CPU"},
+    {"look_up_seconds", "look-up", Unit::Seconds, true, "processor time of one look-up"},
     {"relight_seconds", "relight", Unit::Seconds, true, "what a moved hour adds to a frame"},
     {"frame_seconds", "frame", Unit::Seconds, true, "wall time of a frame of a still sun"},
     {"frame_processor_seconds", "frame processor", Unit::Seconds, false, "processor time of that frame, all threads"},

@@ -46,4 +46,10 @@ Spent measure(const std::function<void()>& work) {
     return spent;
 }
 
+double thread_seconds() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+}
+
 }  // namespace daylit

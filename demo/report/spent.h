@@ -14,4 +14,7 @@ struct Spent {
 /// (/proc/self/clear_refs).
 Spent measure(const std::function<void()>& work);
 
+/// Processor time of the calling thread so far, seconds: what other work on the machine does not change.
+double thread_seconds();
+
 }  // namespace daylit

@@ -3,10 +3,10 @@
 #include <tbb/parallel_for.h>
 
 #include <array>
-#include <chrono>
 #include <map>
 
 #include "demo/report/equal_error.h"
+#include "demo/report/spent.h"
 #include "engine/base/error.h"
 #include "gi/encode/encode_volume.h"
 #include "gi/encode/sweep.h"
@@ -45,12 +45,12 @@ PointTruth gather_at(const VolumeEncoder& encoder, const LightBasis& basis, cons
 
 double seconds_of_a_look_up(const VolumeModeLight& light, const std::vector<SurfaceSample>& points) {
     Rgb sum(0.0f);
-    const auto start = std::chrono::steady_clock::now();
+    const double start = thread_seconds();
     for (std::size_t i = 0; i < kLookUps; ++i) {
         const SurfaceSample& p = points[i % points.size()];
         sum += light.irradiance(p.position, p.normal);
     }
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = thread_seconds() - start;
     return std::isfinite(sum.x) ? seconds / kLookUps : 0.0;
 }
 
@@ -97,12 +97,16 @@ Finding equal_bytes(const std::vector<RunResult>& runs, const std::string& axis,
     const auto said = [](const ChartPoint& p) {
         return written(p.y, Unit::Share) + " with " + written(p.x, Unit::Bytes);
     };
+    const std::string bests = "; its best is " + said(best(axis)) + ", that of " + ours + " " + said(best(ours));
+    if (ratio.at_least)
+        return {"", ratio.ratio, "No size of " + axis + " reaches the " + against + " of any size of " + ours + bests};
+    const std::string where = ratio.reached == ratio.of
+                                  ? ""
+                                  : " where it reaches the error, at " + std::to_string(ratio.reached) + " of " +
+                                        std::to_string(ratio.of) + " sizes";
     return {"", ratio.ratio,
-            "At an equal " + against + ", " + axis + " takes " + (ratio.at_least ? "at least " : "") +
-                written(ratio.ratio, Unit::Number) + " times the bytes of " + ours + " (at " +
-                std::to_string(ratio.reached) + " of its " + std::to_string(ratio.of) +
-                " sizes; the others' errors it does not reach); its best is " + said(best(axis)) + ", that of " + ours +
-                " " + said(best(ours))};
+            "At an equal " + against + ", " + axis + " takes " + written(ratio.ratio, Unit::Number) +
+                " times the bytes of " + ours + where + bests};
 }
 
 std::vector<Finding> findings(const std::vector<RunResult>& runs) {

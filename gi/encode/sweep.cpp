@@ -61,15 +61,17 @@ std::vector<VolumeSettings> volume_sizes(const VolumeMode& mode, const VolumeSet
     if (mode.grid) {
         constexpr int kMostLevel = 6;
         for (int level = 0; level <= kMostLevel; ++level) {
-            if (level > 0 && cells_at_level(roots, level) > 4.0 * double(plan.most_cells)) break;
+            if (level > 0 && cells_at_level(roots, level) > 8.0 * double(plan.most_cells)) break;
             settings.min_level = settings.max_level = level;
             sizes.push_back(settings);
         }
         return sizes;
     }
-    for (const std::size_t part : {1, 2, 4, 8}) {
-        settings.most_cells = plan.most_cells / part;
-        if (part > 1 && double(settings.most_cells) < 1.5 * cells_at_level(roots, 0)) break;
+    // Records without changes take less than half the bytes and need more cells for the same error.
+    const double largest = mode.blend == VolumeBlend::Trilinear ? 4.0 : 1.0;
+    for (const double smaller : {1.0, 2.0, 4.0, 8.0}) {
+        settings.most_cells = std::size_t(largest / smaller * double(plan.most_cells));
+        if (smaller > 1.0 && double(settings.most_cells) < 1.5 * cells_at_level(roots, 0)) break;
         sizes.push_back(settings);
     }
     return sizes;

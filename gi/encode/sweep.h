@@ -36,10 +36,9 @@ struct VolumeModePoint {
 };
 std::vector<VolumeModePoint> volume_modes();
 
-/// Sizes at which a mode is compared: of octrees, shares of the plan's number of cells; of grids, levels up to about
-/// that number.
-/// plan    with nothing left to follow from the error (BakePlan::volume_settings)
-/// roots   along x, y, z (VolumeEncoder::roots)
+/// Sizes at which a mode is compared, largest first: of octrees, shares of the plan's number of cells, from four times
+/// as many where records have no changes; of grids, levels, smallest first. plan    with nothing left to follow from
+/// the error (BakePlan::volume_settings) roots   along x, y, z (VolumeEncoder::roots)
 std::vector<VolumeSettings> volume_sizes(const VolumeMode& mode, const VolumeSettings& plan,
                                          const std::array<int, 3>& roots);
 

@@ -172,6 +172,7 @@ TEST(Sweep, VolumeModesStartWithTheRuntimes) {
     const auto octrees = volume_sizes(modes.front().mode, plan, {4, 4, 4});
     ASSERT_GE(octrees.size(), 3u);
     EXPECT_EQ(octrees.front().most_cells, 1000u);
+    EXPECT_EQ(volume_sizes({VolumeBlend::Trilinear}, plan, {4, 4, 4}).front().most_cells, 4000u);
     for (const VolumeSettings& grid : volume_sizes({VolumeBlend::Trilinear, VolumeBands::Three, true}, plan, {4, 4, 4}))
         EXPECT_EQ(grid.min_level, grid.max_level);
 }
