@@ -10,7 +10,6 @@ namespace daylit {
 namespace {
 
 constexpr double kWidth = 520, kHeight = 340, kLeft = 64, kRight = 16, kTop = 34, kBottom = 48;
-constexpr std::size_t kLooks = 8;  // series that the style tells apart
 
 template <typename... Values>
 std::string text(const char* format, Values... values) {
@@ -189,7 +188,7 @@ std::string svg(const ScatterChart& given) {
     if (front.size() > 1) out += path("front-line", front, x, y);
     for (std::size_t s = 0; s < chart.series.size(); ++s) {
         const ChartSeries& series = chart.series[s];
-        const std::string look = text("s%zu", s % kLooks);
+        const std::string look = text("s%zu", s % kSeriesLooks);
         std::vector<ChartPoint> sorted = series.points;
         std::stable_sort(sorted.begin(), sorted.end(),
                          [](const ChartPoint& a, const ChartPoint& b) { return a.x < b.x; });
@@ -204,7 +203,12 @@ std::string svg(const ScatterChart& given) {
     for (std::size_t s = 0; s < chart.series.size(); ++s)
         for (const ChartPoint& p : chart.series[s].points) {
             const bool competes = chart.series[s].competes, best = competes && on_front(p);
-            out += mark(chart, p, text("s%zu%s", s % kLooks, best ? " best" : competes ? " beaten" : " other"), x, y);
+            out += mark(chart, p,
+                        text("s%zu%s", s % kSeriesLooks,
+                             best       ? " best"
+                             : competes ? " beaten"
+                                        : " other"),
+                        x, y);
         }
     for (const ChartPoint& p : front) out += labels.add(p.label, x(p.x), y(p.y));
     return out + "</svg>\n";

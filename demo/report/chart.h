@@ -43,6 +43,8 @@ struct ScatterChart {
     std::string floor_label;
 };
 
+inline constexpr std::size_t kSeriesLooks = 10;  // s0, s1 ... of the page's style; further series begin again
+
 /// An <svg> element that is well-formed XML; looks come from the page's style (classes s0, s1 ... front, grid ...).
 /// Points that a logarithmic axis cannot show (zero, not finite) are left out. Empty when nothing is left.
 std::string svg(const ScatterChart& chart);

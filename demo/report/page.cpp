@@ -11,9 +11,11 @@ namespace {
 // Series colours after Okabe and Ito, told apart by colour-blind eyes too.
 constexpr const char* kStyle = R"(
 :root { --ink: #1d2329; --soft: #66707a; --rule: #dfe3e8; --paper: #ffffff; --back: #f4f5f7;
-  --s0: #0072b2; --s1: #d55e00; --s2: #009e73; --s3: #b05b97; --s4: #b58900; --s5: #56b4e9; --s6: #7a5195; --s7: #555f69; }
+  --s0: #0072b2; --s1: #d55e00; --s2: #009e73; --s3: #b05b97; --s4: #b58900; --s5: #56b4e9; --s6: #7a5195; --s7: #555f69;
+  --s8: #8a5a2b; --s9: #a3283c; }
 @media (prefers-color-scheme: dark) { :root { --ink: #e4e8ec; --soft: #9aa5b1; --rule: #323a43; --paper: #1b2026; --back: #14181c;
-  --s0: #4aa8e0; --s1: #f08a4b; --s2: #2fc79b; --s3: #d68bc0; --s4: #e0b64a; --s5: #8ccdf2; --s6: #b294d1; --s7: #a7b1bb; } }
+  --s0: #4aa8e0; --s1: #f08a4b; --s2: #2fc79b; --s3: #d68bc0; --s4: #e0b64a; --s5: #8ccdf2; --s6: #b294d1; --s7: #a7b1bb;
+  --s8: #c99a6b; --s9: #e0717f; } }
 * { box-sizing: border-box; }
 body { margin: 0; background: var(--back); color: var(--ink); font: 15px/1.5 system-ui, "Segoe UI", Helvetica, Arial, sans-serif; }
 main { max-width: 1320px; margin: 0 auto; padding: 32px 24px 64px; }
@@ -55,7 +57,7 @@ circle.other { fill: var(--paper); stroke-dasharray: none; }
 
 std::string style() {
     std::string text = kStyle;
-    for (int s = 0; s < 8; ++s) {
+    for (std::size_t s = 0; s < kSeriesLooks; ++s) {
         const std::string n = std::to_string(s);
         text += ".s" + n + " { stroke: var(--s" + n + "); } circle.best.s" + n + " { fill: var(--s" + n + "); }\n";
     }
@@ -158,12 +160,12 @@ std::string legend(const ReportedMethod& method) {
     };
     std::size_t s = 0;
     for (; s < names.size(); ++s) {
-        const std::string look = "s" + std::to_string(s % 8);
+        const std::string look = "s" + std::to_string(s % kSeriesLooks);
         item("<path class=\"" + look + " line\" d=\"M1 6L25 6\"/><circle class=\"" + look +
                  " beaten\" cx=\"13\" cy=\"6\" r=\"4.5\"/>",
              names[s]);
     }
-    const std::string other = "s" + std::to_string(s % 8);
+    const std::string other = "s" + std::to_string(s % kSeriesLooks);
     item("<path class=\"" + other + " line other\" d=\"M1 6L25 6\"/><circle class=\"" + other +
              " other\" cx=\"13\" cy=\"6\" r=\"4.5\"/>",
          "path tracer");
