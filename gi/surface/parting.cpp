@@ -130,10 +130,10 @@ Texels make_parted_texels(const RayScene& rays, const Atlas& atlas) {
 }
 
 std::uint32_t texel_in_sight(const RayScene& rays, const Atlas& atlas, const Texels& texels, std::uint32_t triangle,
-                             const Vec2& barycentric, const Vec3& place) {
+                             const Vec2& barycentric, const Vec3& place, bool back) {
     const std::uint32_t nearest = texels.at(atlas, triangle, barycentric);
     if (nearest == kNoTexel || !texels.walled[nearest]) return nearest;
-    const float height = kSightHeight * texels.width[nearest];
+    const float height = (back ? -kSightHeight : kSightHeight) * texels.width[nearest];
     const Vec3 from = place + height * geometric_normal(rays.mesh(), triangle);
     const auto seen = [&](const Candidate& c) {
         return in_sight(rays, from, c.nearest + height * texels.normal[c.texel]);

@@ -13,7 +13,8 @@ Texels make_parted_texels(const RayScene& rays, const Atlas& atlas);
 
 /// As Texels::at(), but beside walls the texel of the nearest point that is in sight, which may be a neighbour's.
 /// place   where on the triangle, in the world
+/// back    seen from behind
 std::uint32_t texel_in_sight(const RayScene& rays, const Atlas& atlas, const Texels& texels, std::uint32_t triangle,
-                             const Vec2& barycentric, const Vec3& place);
+                             const Vec2& barycentric, const Vec3& place, bool back);
 
 }  // namespace daylit

@@ -81,7 +81,7 @@ TEST(Parting, RaysFindTexelsOnTheSideThatTheyCameTo) {
             ++asked;
             const Vec3 place = ray.origin + met->distance * ray.direction;
             const std::uint32_t texel =
-                texel_in_sight(floor.rays, floor.atlas, floor.texels, met->triangle, met->barycentric, place);
+                texel_in_sight(floor.rays, floor.atlas, floor.texels, met->triangle, met->barycentric, place, false);
             ASSERT_NE(texel, kNoTexel);
             for (const TexelPoint& p : floor.texels.points_of(texel))
                 EXPECT_NE(side(wall, position(floor.made.mesh, p)), -side(wall, place)) << wall << " " << place.x;

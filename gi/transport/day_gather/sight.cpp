@@ -16,7 +16,7 @@ constexpr int kGlassEvents = 8;
 std::uint32_t texel_at(const GatherScene& scene, const Ray& ray, const Hit& hit) {
     if (scene.texels.walled.empty()) return scene.texels.at(scene.atlas, hit.triangle, hit.barycentric);
     return texel_in_sight(scene.rays, scene.atlas, scene.texels, hit.triangle, hit.barycentric,
-                          ray.origin + hit.distance * ray.direction);
+                          ray.origin + hit.distance * ray.direction, glm::dot(ray.direction, hit.normal) > 0.0f);
 }
 
 Sight::Sight(const GatherScene& scene)
