@@ -176,8 +176,8 @@ LightmapRows lightmap_rows(SolvedDay& solved, const StageProgress& progress) {
     const std::vector<bool> open = in_the_open(solved.texels, solved.hits);
     const SmoothingWeights weights = smoothing_weights(solved.rays, solved.texels, solved.hits.nearness, open);
     LightmapRows result;
-    result.texels = smooth(weights, solved.day.texels, components);
-    solved.day.texels = {};
+    result.texels = std::move(solved.day.texels);
+    smooth(weights, components, result.texels);
     if (solved.input.settings.directional) {
         result.tilts = texel_tilts(solved.gather, solved.hits, solved.day, both(open, normal_mapped(solved.gather)),
                                    solved.how, progress);

@@ -14,7 +14,7 @@ constexpr float kSigma = 1.6f;            // of the Gaussian, texels
 constexpr float kSigmaOfNearness = 0.3f;  // and at most this share of the mean distance of what is seen
 constexpr float kReach = 2.5f;            // sigmas
 constexpr float kMinCosine = 0.9f;
-constexpr float kPlane = 0.25f;        // texels out of the tangent plane at which the weight falls to 1/e
+constexpr float kPlane = 0.25f;  // texels out of the tangent plane at which the weight falls to 1/e
 
 struct Cloud {
     const std::vector<Vec3>& points;
@@ -100,16 +100,23 @@ SmoothingWeights smoothing_weights(const RayScene& rays, const Texels& texels, s
     return result;
 }
 
-std::vector<Rgb> smooth(const SmoothingWeights& weights, std::span<const Rgb> rows, std::size_t columns) {
-    std::vector<Rgb> result(rows.size(), Rgb(0.0f));
-    tbb::parallel_for(std::size_t(0), weights.first.size() - 1, [&](std::size_t t) {
-        Rgb* out = result.data() + t * columns;
-        for (std::uint32_t k = weights.first[t]; k < weights.first[t + 1]; ++k) {
-            const Rgb* in = rows.data() + std::size_t(weights.texel[k]) * columns;
-            for (std::size_t c = 0; c < columns; ++c) out[c] += weights.weight[k] * in[c];
-        }
-    });
-    return result;
+void smooth(const SmoothingWeights& weights, std::size_t columns, std::vector<Rgb>& rows) {
+    const std::size_t count = weights.first.size() - 1;
+    std::vector<Rgb> block(count * kColumnsAtOnce);
+    for (std::size_t first = 0; first < columns; first += kColumnsAtOnce) {
+        const std::size_t width = std::min(kColumnsAtOnce, columns - first);
+        tbb::parallel_for(std::size_t(0), count, [&](std::size_t t) {
+            Rgb* out = block.data() + t * kColumnsAtOnce;
+            std::fill_n(out, width, Rgb(0.0f));
+            for (std::uint32_t k = weights.first[t]; k < weights.first[t + 1]; ++k) {
+                const Rgb* in = rows.data() + std::size_t(weights.texel[k]) * columns + first;
+                for (std::size_t c = 0; c < width; ++c) out[c] += weights.weight[k] * in[c];
+            }
+        });
+        tbb::parallel_for(std::size_t(0), count, [&](std::size_t t) {
+            std::copy_n(block.data() + t * kColumnsAtOnce, width, rows.data() + t * columns + first);
+        });
+    }
 }
 
 }  // namespace daylit

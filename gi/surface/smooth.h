@@ -21,7 +21,10 @@ struct SmoothingWeights {
 SmoothingWeights smoothing_weights(const RayScene& rays, const Texels& texels, std::span<const float> nearness,
                                    const std::vector<bool>& usable);
 
-/// rows   texels * columns
-std::vector<Rgb> smooth(const SmoothingWeights& weights, std::span<const Rgb> rows, std::size_t columns);
+/// rows   texels * columns; smoothed in place, so many columns at a time, since a second copy of all would be what a
+/// bake's
+///        memory peaks at
+void smooth(const SmoothingWeights& weights, std::size_t columns, std::vector<Rgb>& rows);
+inline constexpr std::size_t kColumnsAtOnce = 8;
 
 }  // namespace daylit

@@ -57,6 +57,33 @@ void gather_tilts(const GatherScene& scene, const GatherHits& hits, const DaySol
     }
 }
 
+struct Stretch {
+    std::size_t first, count;
+};
+
+/// A stretch of the components of both axes, mixed over the neighbours of a row's texel: [axis][component].
+void smooth_row(const GatherScene& scene, const SmoothingWeights& weights, const TexelTilts& tilts, std::size_t stride,
+                const Stretch& part, std::size_t row, Rgb* out) {
+    const std::uint32_t texel = tilts.texel_of_row[row];
+    const TiltFrame own = tilt_frame(scene, texel);
+    std::fill_n(out, 2 * part.count, Rgb(0.0f));
+    float all = 0.0f;
+    for (std::uint32_t k = weights.first[texel]; k < weights.first[texel + 1]; ++k) {
+        const std::uint32_t from = tilts.row_of_texel[weights.texel[k]];
+        if (from == ~0u) continue;
+        const float weight = weights.weight[k];
+        const TiltFrame other = tilt_frame(scene, weights.texel[k]);
+        const Rgb *u = tilts.rows.data() + from * stride + part.first, *v = u + stride / 2;
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+            const Vec3& to = axis == 0 ? own.u : own.v;
+            const float of_u = weight * glm::dot(to, other.u), of_v = weight * glm::dot(to, other.v);
+            for (std::size_t i = 0; i < part.count; ++i) out[axis * part.count + i] += of_u * u[i] + of_v * v[i];
+        }
+        all += weight;
+    }
+    for (std::size_t i = 0; all > 0.0f && i < 2 * part.count; ++i) out[i] /= all;
+}
+
 }  // namespace
 
 TiltFrame tilt_frame(const GatherScene& scene, std::size_t texel) {
@@ -93,29 +120,20 @@ TexelTilts texel_tilts(const GatherScene& scene, const GatherHits& hits, const D
 
 void smooth_tilts(const GatherScene& scene, const SmoothingWeights& weights, std::size_t components,
                   TexelTilts& tilts) {
-    std::vector<Rgb> result(tilts.rows.size(), Rgb(0.0f));
     const StageProgress silent{Progress{}};
-    for_each_parallel(tilts.count(), silent, [&](std::size_t row) {
-        const std::uint32_t texel = tilts.texel_of_row[row];
-        const TiltFrame own = tilt_frame(scene, texel);
-        Rgb* out = result.data() + row * 2 * components;
-        float all = 0.0f;
-        for (std::uint32_t k = weights.first[texel]; k < weights.first[texel + 1]; ++k) {
-            const std::uint32_t from = tilts.row_of_texel[weights.texel[k]];
-            if (from == ~0u) continue;
-            const float weight = weights.weight[k];
-            const TiltFrame other = tilt_frame(scene, weights.texel[k]);
-            const Rgb *u = tilts.rows.data() + from * 2 * components, *v = u + components;
-            for (std::size_t axis = 0; axis < 2; ++axis) {
-                const Vec3& to = axis == 0 ? own.u : own.v;
-                const float of_u = weight * glm::dot(to, other.u), of_v = weight * glm::dot(to, other.v);
-                for (std::size_t i = 0; i < components; ++i) out[axis * components + i] += of_u * u[i] + of_v * v[i];
-            }
-            all += weight;
-        }
-        for (std::size_t i = 0; all > 0.0f && i < 2 * components; ++i) out[i] /= all;
-    });
-    tilts.rows = std::move(result);
+    const std::size_t stride = 2 * components;
+    std::vector<Rgb> block(tilts.count() * 2 * kColumnsAtOnce);
+    for (std::size_t first = 0; first < components; first += kColumnsAtOnce) {
+        const std::size_t width = std::min(kColumnsAtOnce, components - first);
+        for_each_parallel(tilts.count(), silent, [&](std::size_t row) {
+            smooth_row(scene, weights, tilts, stride, {first, width}, row, block.data() + row * 2 * width);
+        });
+        for_each_parallel(tilts.count(), silent, [&](std::size_t row) {
+            for (std::size_t axis = 0; axis < 2; ++axis)
+                std::copy_n(block.data() + (2 * row + axis) * width, width,
+                            tilts.rows.data() + row * stride + axis * components + first);
+        });
+    }
 }
 
 }  // namespace daylit
