@@ -35,11 +35,14 @@ class DrawState {
         glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
         for (const GLenum off : {GL_CULL_FACE, GL_BLEND, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_FRAMEBUFFER_SRGB})
             glDisable(off);
+        // The dual-source one that veils leave forbids several targets even where nothing blends.
+        glBlendFunc(GL_ONE, GL_ZERO);
         glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
     }
     ~DrawState() {
         glDisable(GL_DEPTH_TEST);
         glDepthFunc(GL_LESS);
+        glBlendFunc(GL_ONE, GL_ZERO);
         glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
         glBindVertexArray(0);
         glUseProgram(0);
