@@ -4,6 +4,7 @@
   screenshots.py DAYLIT WORK --list             the cases by name
   screenshots.py DAYLIT WORK --prepare          makes and bakes the scenes in WORK
   screenshots.py DAYLIT WORK --case NAME        one test; pictures land in WORK
+  screenshots.py DAYLIT WORK --day              a day's frames, drawn by one renderer, against shots of their hours
   screenshots.py DAYLIT WORK --renew [NAME ...] path-traces references anew (all of them without a name)
 
 The references lie in references/ beside this file; each EXR's header holds the command and the standard error that made
@@ -18,6 +19,7 @@ import sys
 HERE = pathlib.Path(__file__).parent
 SIZE = "160x90"
 SAMPLES = "8"  # along a pixel side: at this size most pixels hold an edge, and a sky seen through lead is 1000 times the wall
+DAY_APART = 6  # of 255: the sun's cascades keep their place from frame to frame, so shadows' edges move by parts of a texel
 TABLE = json.loads((HERE / "cases.json").read_text())
 daylit, work = sys.argv[1], pathlib.Path(sys.argv[2])
 
@@ -80,6 +82,22 @@ def test(case):
     print(line)
 
 
+def test_day():
+    level, folder = scene_file("koldinghus"), work / "day"
+    where = ["--light", light_file("koldinghus"), "--camera", "hall", "--size", SIZE]
+    run("day", level, "-o", folder, "--from", "5", "--to", "18", "--every", "6h", *where)
+    frames = sorted(folder.glob("??h??.png"))
+    if len(frames) != 3:
+        sys.exit(f"{folder} holds {[f.name for f in frames]} instead of three frames")
+    for frame in frames:
+        shot = frame.with_name(f"shot-{frame.name}")
+        run("shot", level, "-o", shot, "--hour", frame.stem.replace("h", ":"), *where)
+        most = json.loads(run("compare", frame, shot, "--json"))["max_abs_8bit"]
+        print(f"{frame.stem}: at most {most}/255 apart")
+        if most > DAY_APART:
+            sys.exit(f"{frame} differs from {shot} by {most}/255")
+
+
 def main(mode, names):
     table = {case["name"]: case for case in cases()}
     unknown = [name for name in names if name not in table]
@@ -89,6 +107,8 @@ def main(mode, names):
         print(";".join(table), end="")
     elif mode == "--prepare":
         prepare(TABLE["scenes"])
+    elif mode == "--day":
+        test_day()
     elif mode == "--renew":
         chosen = [table[name] for name in names] or list(table.values())
         prepare({case["scene"] for case in chosen}, bake=False)
