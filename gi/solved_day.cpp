@@ -76,26 +76,27 @@ std::vector<bool> both(std::vector<bool> a, const std::vector<bool>& b) {
     return a;
 }
 
-/// Brightness of a texel over the moments, each over what the eye is adapted to.
+/// Brightness of a texel summed over the moments, each over what the eye is adapted to: linear, so that the moments'
+/// weights are summed once.
 class Brightness {
   public:
-    explicit Brightness(const LightmapRows& rows) : rows_(rows) {
+    explicit Brightness(const LightmapRows& rows)
+        : rows_(rows), weights_(std::size_t(rows.basis.components), Rgb(0.0f)) {
         for (const Moment& m : rows.moments) {
-            weights_.push_back(rows.basis.weights(m.scales, m.hour));
-            for (Rgb& w : weights_.back()) w /= float(m.exposure);
+            const std::vector<Rgb> of_moment = rows.basis.weights(m.scales, m.hour);
+            for (std::size_t r = 0; r < weights_.size(); ++r) weights_[r] += of_moment[r] / float(m.exposure);
         }
     }
     double operator()(std::uint32_t texel) const {
         double sum = 0.0;
-        for (const std::vector<Rgb>& w : weights_)
-            for (std::size_t r = 0; r < w.size(); ++r)
-                sum += double(luminance(w[r] * rows_.texels[texel * w.size() + r]));
+        for (std::size_t r = 0; r < weights_.size(); ++r)
+            sum += double(luminance(weights_[r] * rows_.texels[texel * weights_.size() + r]));
         return sum;
     }
 
   private:
     const LightmapRows& rows_;
-    std::vector<std::vector<Rgb>> weights_;
+    std::vector<Rgb> weights_;  // per component
 };
 
 /// Of the parts of a cell that are shown, the darkest when the brightest is so much brighter that a mean would be light
