@@ -37,13 +37,14 @@ void add_picture_options(CLI::App& app, PictureOptions& options, bool with_hour)
     app.add_option("--light", options.light, "baked light, .daylit")->group(group);
     app.add_option("--context", options.context, "egl | osmesa | glfw | any")->group(group)->capture_default_str();
     add_volume_mode(app, options.volume_mode);
-    app.add_option("--samples", options.samples_per_side, "samples along each side of a pixel, 1 to 8")
-        ->group(group)
-        ->capture_default_str();
+    app.add_option("--samples", options.samples_per_side,
+                   "samples along each side of a pixel, 1 to 8; else 2, or 4 for a shot to .exr")
+        ->group(group);
     app.add_option("--frames", options.frames, "draws it this often and reports median times of the passes")
         ->group(group)
         ->capture_default_str();
-    app.add_flag("--no-culling", options.no_culling, "draws also what the view cannot see, to judge culling")->group(group);
+    app.add_flag("--no-culling", options.no_culling, "draws also what the view cannot see, to judge culling")
+        ->group(group);
 }
 
 struct Photographer::State {
@@ -77,17 +78,21 @@ struct Photographer::State {
 };
 
 Photographer::Photographer(const PictureOptions& options) {
-    if (options.samples_per_side < 1 || options.samples_per_side > 8)
-        throw Error("--samples", "give 1 to 8 samples along a pixel's side");
+    const int samples = options.samples_per_side.value_or(kSamplesPerSide);
+    if (samples < 1 || samples > 8) throw Error("--samples", "give 1 to 8 samples along a pixel's side");
     if (options.frames < 1 || options.frames > 1000) throw Error("--frames", "give 1 to 1000");
     state_ = std::make_unique<State>(options);
 }
 
 Photographer::~Photographer() = default;
 
-const LoadedScene& Photographer::loaded() const { return state_->loaded; }
+const LoadedScene& Photographer::loaded() const {
+    return state_->loaded;
+}
 
-std::string Photographer::driver() const { return state_->context->description(); }
+std::string Photographer::driver() const {
+    return state_->context->description();
+}
 
 Picture Photographer::take(double hour, double seconds) {
     State& s = *state_;
@@ -103,7 +108,7 @@ Picture Photographer::take(double hour, double seconds) {
     frame.volume_mode = s.volume_mode;
     frame.volume_view = s.layer == Layer::Volume;
     frame.ev = s.ev.value_or(0.0);  // metered below, over every pixel
-    frame.samples_per_side = s.options.samples_per_side;
+    frame.samples_per_side = s.options.samples_per_side.value_or(kSamplesPerSide);
     frame.cull = !s.options.no_culling;
     frame.timings = s.options.frames > 1;
 

@@ -2,6 +2,7 @@
 // Pictures of a scene through the renderer, off-screen; what `shot` and `day` share.
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "demo/options.h"
@@ -10,14 +11,16 @@
 
 namespace daylit {
 
+inline constexpr int kSamplesPerSide = 2;
+
 struct PictureOptions {
     SceneOptions scene;
     ViewOptions view;
-    std::string light;            // .daylit file; empty: none
-    std::string context = "any";  // egl, osmesa, glfw, any
-    std::string volume_mode = "auto";  // auto, object, vertex, pixel
-    int samples_per_side = 2;
-    int frames = 1;       // draws each picture this often; the last one is kept, the passes' times are medians
+    std::string light;                    // .daylit file; empty: none
+    std::string context = "any";          // egl, osmesa, glfw, any
+    std::string volume_mode = "auto";     // auto, object, vertex, pixel
+    std::optional<int> samples_per_side;  // of each pixel; not given: kSamplesPerSide
+    int frames = 1;  // draws each picture this often; the last one is kept, the passes' times are medians
     bool no_culling = false;
 };
 void add_picture_options(CLI::App& app, PictureOptions& options, bool with_hour = true);

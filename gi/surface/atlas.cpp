@@ -32,9 +32,10 @@ constexpr float kWidestRange = 4.0f;  // of steps, to either side of the mean
 constexpr float kLongest = 8.0f;      // a texel, times its width
 constexpr float kHiddenStep = 16.0f;  // of charts where nobody can look, times the mean
 constexpr float kWideArea = 100.0f;   // square metres: larger charts get coarser, with the eighth root of their area
-// Fetches keep this far, in texels, inside the outermost texel centres: more than the 1/256 of a GPU's fixed-point
-// filter, so no neighbour in the atlas is touched.
-constexpr float kInset = 1.0f / 128.0f;
+// Fetches keep this far, in texels, inside the outermost texel centres: well over the 1/256 of a GPU's fixed-point
+// filter, and beyond what coordinates in 16 bits are rounded by. A neighbour in the atlas may be 1e5 times as bright.
+constexpr float kInset = 1.0f / 64.0f;
+constexpr float kUvRounding = 0.5f / 65535.0f;  // of the atlas's side
 
 int texels_along(float size, float step) {
     return std::clamp(1 + int(std::min(size / step + 0.5f, 1e6f)), 1, kMaxChartSide);
@@ -213,8 +214,10 @@ void add_unwrapped(const WorldMesh& mesh, PlacedChart&& placed, const Block& blo
 }
 
 /// Of a single texel, whose copy follows, anywhere between the two: it keeps its area for whoever reads the layout.
-float inset(float grid, int count) {
-    return std::clamp(grid, kInset, float(std::max(count - 1, 1)) - kInset);
+/// side: of the atlas, texels
+float inset(float grid, int count, int side) {
+    const float rim = kInset + kUvRounding * float(side);
+    return std::clamp(grid, rim, float(std::max(count - 1, 1)) - rim);
 }
 
 void write_corner_uvs(Atlas& atlas) {
@@ -225,8 +228,9 @@ void write_corner_uvs(Atlas& atlas) {
             atlas.chart_of_triangle[t] = id;
             for (std::size_t corner = 3 * std::size_t(t); corner < 3 * std::size_t(t) + 3; ++corner) {
                 const Vec2& g = atlas.corner_grids[corner];
-                atlas.corner_uvs[corner] =
-                    Vec2(float(c.x) + 0.5f + inset(g.x, c.nx), float(c.y) + 0.5f + inset(g.y, c.ny)) / size;
+                atlas.corner_uvs[corner] = Vec2(float(c.x) + 0.5f + inset(g.x, c.nx, atlas.width),
+                                                float(c.y) + 0.5f + inset(g.y, c.ny, atlas.height)) /
+                                           size;
             }
         }
     }
