@@ -1,25 +1,41 @@
 #include "gi/bake.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "gi/encode/encode_lightmap.h"
 #include "gi/encode/encode_volume.h"
+#include "gi/lightmap_rows.h"
 #include "gi/solved_day.h"
 
 namespace daylit {
 namespace {
 
+/// Of values with light.
+float quantile(std::vector<float> values, double share) {
+    std::erase(values, 0.0f);
+    if (values.empty()) return 0.0f;
+    const auto at = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
 std::string describe(const EncodedLightmap& encoded, const Texels& texels, const BakePlan& plan, const DaySolution& day,
-                     const TexelTilts& tilts) {
-    char error[32], patterns[160];
+                     const LightmapRows& rows) {
+    char error[32], patterns[160], noise[160];
     std::snprintf(error, sizeof error, "%.4f", day.basis.error);
     std::snprintf(patterns, sizeof patterns,
                   "kept as %d keyframes and tiles of %.1f components (%d at most), worst tile's error %.3f",
                   int(encoded.map.basis.hours.size()), encoded.mean_patterns, encoded.map.slots(), encoded.worst_tile);
-    return std::to_string(texels.count()) + " texels, " + std::to_string(plan.rays) + " rays each, " +
-           std::to_string(plan.hours.size()) + " hours in " + std::to_string(day.basis.components) +
-           " components (error " + error + "), " + std::to_string(day.bounces) + " bounces; " +
-           (tilts.count() ? std::to_string(tilts.count()) + " texels under normal maps with tilts; " : "") + patterns;
+    std::snprintf(noise, sizeof noise,
+                  "%d rays each and %.0f more on average where it pays, standard error %.3f (95th percentile %.3f, the "
+                  "worst hour, before smoothing), ",
+                  plan.rays, rows.more_rays, double(quantile(rows.noise, 0.5)), double(quantile(rows.noise, 0.95)));
+    return std::to_string(texels.count()) + " texels, " + noise + std::to_string(plan.hours.size()) + " hours in " +
+           std::to_string(day.basis.components) + " components (error " + error + "), " + std::to_string(day.bounces) +
+           " bounces; " +
+           (rows.tilts.count() ? std::to_string(rows.tilts.count()) + " texels under normal maps with tilts; " : "") +
+           patterns;
 }
 
 std::string describe(const EncodedVolume& encoded, const BakePlan& plan) {
@@ -52,7 +68,7 @@ void bake_lightmap(SolvedDay& solved, const Progress& progress, Baked& baked) {
     EncodedLightmap encoded = encode_lightmap(std::move(rows.shape), rows.light(),
                                               {rows.tilts.row_of_texel, rows.tilts.rows}, rows.row_of_pixel, {});
     const std::string layout = solved.kept.note.empty() ? "" : solved.kept.note + "; ";
-    note(baked.plan, "lightmap", layout + describe(encoded, solved.texels, solved.input.plan, solved.day, rows.tilts),
+    note(baked.plan, "lightmap", layout + describe(encoded, solved.texels, solved.input.plan, solved.day, rows),
          encoded.error);
     baked.lightmap = std::move(encoded.map);
 }

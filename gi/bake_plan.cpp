@@ -13,7 +13,9 @@ namespace {
 // the ceiling keeps two cores busy for about a minute.
 constexpr double kFewestTexels = 24000, kTexelsPerTriangle = 8, kPreviewTexels = 280000;
 // Rays a texel at preview; noise falls with their root, and filtering over neighbours takes a good part of the rest.
-constexpr double kPreviewRays = 64, kPreviewError = 0.10;
+constexpr double kPreviewRays = 48, kPreviewError = 0.10;
+// On top, for texels whose noise is largest: a share of those.
+constexpr double kMoreRays = 2.0 / 3.0;
 constexpr int kFewestRays = 32, kMostRays = 1024;
 // Samples of a volume look at the whole sphere and are averaged with few neighbours.
 constexpr int kRaysOfTexelsPerSample = 3;
@@ -85,6 +87,7 @@ BakePlan plan_bake(const SceneFacts& facts, const LightModel& light, const BakeS
     if (!plan.lightmap && !plan.volume) return plan;
     plan.texel_budget = std::size_t(settings.tuning.texels * double(texel_budget(facts, settings.error)));
     plan.rays = std::max(1, int(settings.tuning.rays * rays_per_texel(settings.error)));
+    plan.more_rays = kMoreRays * plan.rays;
     plan.volume_settings = volume_settings(settings);
     plan.hours = baked_hours(light, settings.from_hour, settings.to_hour, settings.every_hours);
     return plan;

@@ -12,6 +12,7 @@ struct BakePlan {
     bool lightmap = false, volume = false;
     std::size_t texel_budget = 0;  // of the lightmap
     int rays = 0;                  // per texel
+    double more_rays = 0;          // mean per texel of those added where the noise is large
     VolumeSettings volume_settings;
     std::vector<double> hours;  // at which sun and sky are known
 };

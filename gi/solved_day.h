@@ -48,18 +48,4 @@ struct SolvedDay {
     LeavingLight leaving() const;
 };
 
-/// The uncompressed day lightmap: what lightmap encoders are given.
-struct LightmapRows {
-    DayLightmap shape;  // width, height and corner_uvs alone
-    LightBasis basis;
-    std::vector<Rgb> texels;  // [texel][component], smoothed
-    TexelTilts tilts;
-    std::vector<Moment> moments;
-    std::vector<std::uint32_t> row_of_pixel;  // as encode_lightmap() takes it
-
-    LightRows light() const { return {basis, 1, texels, moments}; }
-};
-/// Takes the solution's texels.
-LightmapRows lightmap_rows(SolvedDay& solved, const StageProgress& progress);
-
 }  // namespace daylit

@@ -29,7 +29,7 @@ TiltedLight baked_tilted_light(vec2 lightmap_uv, vec3 place, vec3 surface_normal
                        texture(baked_tilt_v_map, lightmap_uv).rgb, mat3(u, cross(surface_normal, u), surface_normal));
 }
 
-// For the unit normal that the normal map says.
+// For the normal that the normal map says; shorter than 1 where it is the mean of several, since this is linear in it.
 vec3 baked_irradiance(TiltedLight light, vec3 normal) {
     return tilted_irradiance(light.irradiance, light.tilt_u, light.tilt_v, normal * light.world_from_frame);
 }

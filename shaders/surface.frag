@@ -154,7 +154,7 @@ void main() {
 #if defined(LIGHTMAP) && (defined(SHOW_FINAL) || defined(SHOW_INDIRECT) || defined(SHOW_IRRADIANCE) || defined(SHOW_LIGHTMAP))
 #if defined(TILTED) && defined(NORMAL_TEXTURE)
     TiltedLight baked = baked_tilted_light(v_lightmap_uv, v_position, normalize(v_normal));
-    indirect = baked_irradiance(baked, normal * side);
+    indirect = baked_irradiance(baked, normal * (side * evenness));
     mirrored = baked_radiance(baked, reflect(-view, normal) * side, brdf.exponent);
 #else
     indirect = baked_irradiance(v_lightmap_uv);

@@ -15,6 +15,7 @@
 #include "engine/base/yee.h"
 #include "gi/encode/paper_pca.h"
 #include "gi/encode/sweep.h"
+#include "gi/lightmap_rows.h"
 #include "gi/solved_day.h"
 
 namespace daylit {

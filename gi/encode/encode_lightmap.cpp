@@ -21,6 +21,8 @@ using Vector = Eigen::VectorXd;
 
 // A moment at which a tile is darker than this share of its brightest is judged as if it had that much.
 constexpr double kDarkestMoment = 0.03;
+// Texels beside an evening lamp are judged by their day: of the evening, only this share counts.
+constexpr double kEveningShare = 1.0 / 64.0;
 constexpr Eigen::Index kCheckedEvery = 3;  // texels of a tile on which its error is measured
 constexpr Eigen::Index kMoreVectors = 8;
 constexpr int kSubspaceSteps = 2;
@@ -74,6 +76,8 @@ TileRows tile_rows(const Judge& judge, const DayLightmap& map, std::span<const s
     result.tilted = std::any_of(rows.begin(), rows.end(), [&](std::uint32_t row) { return tilt_row(row) != ~0u; });
     Eigen::MatrixXf light = Eigen::MatrixXf::Zero(result.tilted ? 3 * n : n, given);
     result.light.resize(light.rows(), 3 * q);
+    const Eigen::Index evening = given - Eigen::Index(kStillParts) + Eigen::Index(StillPart::Evening);
+    Vector squares = Vector::Zero(n), by_day = squares;
     for (int c = 0; c < 3; ++c) {
         for (Eigen::Index i = 0; i < n; ++i) {
             const std::uint32_t row = rows[std::size_t(i)], tilts = tilt_row(row);
@@ -84,9 +88,14 @@ TileRows tile_rows(const Judge& judge, const DayLightmap& map, std::span<const s
                 for (Eigen::Index r = 0; r < given; ++r)
                     light((1 + axis) * n + i, r) = tilt[axis * given + r][c] / DayLightmap::kTiltScale;
         }
-        result.light.middleCols(c * q, q) = (light * judge.basis.turn).cast<double>();
+        const Eigen::MatrixXf turned = light * judge.basis.turn;
+        const auto lamps = light.col(evening).head(n) * judge.basis.turn.row(evening);
+        by_day += (turned.topRows(n) - lamps).rowwise().squaredNorm().cast<double>();
+        squares += turned.topRows(n).rowwise().squaredNorm().cast<double>();
+        result.light.middleCols(c * q, q) = turned.cast<double>();
     }
-    const Vector brightness = (result.texels().rowwise().norm() / std::sqrt(3.0)).cwiseMax(double(kDarkestRow));
+    const Vector brightness =
+        (by_day.cwiseMax(kEveningShare * kEveningShare * squares) / 3.0).cwiseSqrt().cwiseMax(double(kDarkestRow));
     result.brightness = n ? brightness.maxCoeff() : 0.0;
     for (Eigen::Index i = 0; i < n; ++i) {
         const int exponent =
@@ -181,10 +190,13 @@ Patterns principal_patterns(const Judge& judge, const TileRows& tile, const Matr
 
     Patterns result{Matrix(n, settings.most_patterns), Matrix(settings.most_patterns, 3 * q)};
     Vector left = moment_squares(gram, judge.truth);
-    const Vector allowed = (settings.error * seen).cwiseAbs2() * double(3 * tile.count());
+    const auto allowed = [&](Eigen::Index patterns) -> Vector {
+        const double error = patterns < settings.usual_patterns ? settings.error : settings.bad_error;
+        return (error * seen).cwiseAbs2() * double(3 * tile.count());
+    };
     Eigen::Index count = 0;
     const Eigen::Index most = std::min<Eigen::Index>(settings.most_patterns, std::min(n, 3 * q));
-    while (count < most && (left.array() > allowed.array()).any()) {
+    while (count < most && (left.array() > allowed(count).array()).any()) {
         const double energy = principal.values[count];
         if (!(energy > 1e-12 * principal.values[0])) break;
         Vector direction(3 * q);

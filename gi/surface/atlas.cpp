@@ -5,23 +5,12 @@
 #include <numeric>
 
 #include "engine/base/error.h"
-#define STB_RECT_PACK_IMPLEMENTATION
-#define STBRP_STATIC
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#include <stb/stb_rect_pack.h>
-#pragma GCC diagnostic pop
+#include "gi/surface/pack.h"
 
 namespace daylit {
 namespace {
 
-constexpr int kMaxSide = 16384, kMaxChartSide = 2048;
-
-[[noreturn]] void refuse_size() {
-    throw Error("lightmap",
-                "the static surfaces need more than 16384 x 16384 texels; bake with a coarser "
-                "--quality or split the scene");
-}
+constexpr int kMaxChartSide = 2048;
 
 // Light varies along a surface the faster the nearer the surroundings are: its relative gradient is bounded by the mean
 // inverse distance of what is seen (Ward and Heckbert 1992), and along an axis it goes with how fast that changes.
@@ -35,6 +24,7 @@ constexpr float kWideArea = 100.0f;   // square metres: larger charts get coarse
 // Fetches keep this far, in texels, inside the outermost texel centres: well over the 1/256 of a GPU's fixed-point
 // filter, and beyond what coordinates in 16 bits are rounded by. A neighbour in the atlas may be 1e5 times as bright.
 constexpr float kInset = 1.0f / 64.0f;
+constexpr float kInFront = 0.25f;               // of a chart's width, where it counts as lying
 constexpr float kUvRounding = 0.5f / 65535.0f;  // of the atlas's side
 
 int texels_along(float size, float step) {
@@ -99,7 +89,9 @@ std::vector<Share> share_out(const WorldMesh& mesh, std::vector<Chart>&& charts,
 /// Texels of a kept layout: two at least along each side, so that a fetch between them stays inside.
 glm::ivec2 texels_of(const KeptLayout& layout, float step) {
     if (layout.texels) return glm::max(*layout.texels, 2);
-    const auto along = [&](float size) { return std::clamp(int(std::min(size / step + 0.5f, 1e6f)), 2, kMaxSide); };
+    const auto along = [&](float size) {
+        return std::clamp(int(std::min(size / step + 0.5f, 1e6f)), 2, kMaxAtlasSide);
+    };
     return {along(layout.metres.x), along(layout.metres.y)};
 }
 
@@ -133,42 +125,12 @@ PlacedChart cut(Share&& share, float step) {
     return placed;
 }
 
-/// What is packed: a kept layout or a chart.
-struct Block {
-    int width = 2, height = 2, x = 0, y = 0;
-};
-
-/// Packs into the given width; the height used, or 0 when it does not fit.
-int pack(std::vector<Block>& blocks, int width) {
-    std::vector<stbrp_node> nodes(std::size_t(width), stbrp_node{});
-    std::vector<stbrp_rect> rects(blocks.size());
-    for (std::size_t i = 0; i < blocks.size(); ++i) {
-        rects[i] = {};
-        rects[i].id = int(i);
-        rects[i].w = blocks[i].width, rects[i].h = blocks[i].height;
-    }
-    stbrp_context context;
-    stbrp_init_target(&context, width, kMaxSide, nodes.data(), int(nodes.size()));
-    if (!stbrp_pack_rects(&context, rects.data(), int(rects.size()))) return 0;
-    int height = 1;
-    for (const stbrp_rect& r : rects) {
-        blocks[std::size_t(r.id)].x = r.x, blocks[std::size_t(r.id)].y = r.y;
-        height = std::max(height, r.y + r.h);
-    }
-    return height;
-}
-
-void place(std::vector<Block>& blocks, Atlas& atlas) {
-    double area = 0.0;
-    int widest = 2;
-    for (const Block& b : blocks) area += double(b.width) * b.height, widest = std::max(widest, b.width);
-    const int square = int(std::ceil(std::sqrt(area) / 4.0)) * 4;
-    // One layout alone fills the atlas.
-    atlas.width = blocks.size() == 1 ? widest : std::clamp(square, widest, kMaxSide);
-    while (widest > kMaxSide || (atlas.height = pack(blocks, atlas.width)) == 0) {
-        if (atlas.width >= kMaxSide) refuse_size();
-        atlas.width = std::min(2 * atlas.width, kMaxSide);
-    }
+/// In front of a chart, so that the two sides of a wall are apart.
+Block block_of(const PlacedChart& placed) {
+    const Chart& chart = placed.chart;
+    const Vec3 middle = chart.origin + 0.5f * (chart.size.x * chart.axis_u + chart.size.y * chart.axis_v);
+    const float away = kInFront * std::sqrt(chart.size.x * chart.size.y);
+    return {placed.atlas_width(), placed.atlas_height(), middle + away * glm::cross(chart.axis_u, chart.axis_v)};
 }
 
 /// Its islands as charts whose texels are those of the layout. block: where the layout lies
@@ -259,7 +221,7 @@ float even_step(const WorldMesh& mesh, std::size_t texel_budget) {
 
 Atlas make_atlas(const WorldMesh& mesh, std::size_t texel_budget, std::span<const Surroundings> around,
                  const KeptLayouts& kept) {
-    if (texel_budget > std::size_t(kMaxSide) * kMaxSide) refuse_size();
+    if (texel_budget > std::size_t(kMaxAtlasSide) * kMaxAtlasSide) refuse_atlas_size();
     const Bounds box = bounds(mesh);
     // Half a texel's width; never so fine that a long sliver takes for ever.
     const float extent = box.empty() ? 1.0f : glm::length(box.max - box.min);
@@ -270,13 +232,17 @@ Atlas make_atlas(const WorldMesh& mesh, std::size_t texel_budget, std::span<cons
 
     std::vector<PlacedChart> unwrapped;
     std::vector<Block> blocks;
-    for (const KeptLayout& k : layouts) blocks.push_back({texels_of(k, step).x, texels_of(k, step).y});
+    for (const KeptLayout& k : layouts) {
+        const glm::ivec2 texels = texels_of(k, step);
+        blocks.push_back({texels.x, texels.y, k.islands.empty() ? Vec3(0.0f) : k.islands[0].origin});
+    }
     for (Share& share : shares) {
         unwrapped.push_back(cut(std::move(share), step));
-        blocks.push_back({unwrapped.back().atlas_width(), unwrapped.back().atlas_height()});
+        blocks.push_back(block_of(unwrapped.back()));
     }
     Atlas atlas;
-    place(blocks, atlas);
+    const PackedSize size = pack(blocks);
+    atlas.width = size.width, atlas.height = size.height;
     atlas.chart_of_triangle.assign(mesh.triangle_count(), kNoChart);
     atlas.corner_grids.assign(3 * mesh.triangle_count(), Vec2(0.0f));
     atlas.corner_uvs = atlas.corner_grids;

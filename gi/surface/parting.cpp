@@ -16,13 +16,20 @@ namespace {
 
 constexpr std::size_t kMostCandidates = 32;  // texels beside a place
 
+/// Whether something lies on a point, or so close above it that nobody looks at it but through a slit.
+bool covered(const RayScene& rays, const Vec3& point, const Vec3& normal, const Vec3& above) {
+    return !in_sight(rays, RayScene::offset_origin(point, normal, normal), above);
+}
+
 class Parter {
   public:
     Parter(const RayScene& rays, std::span<const TexelPoint> points, float width) : rays_(rays) {
         for (const TexelPoint& p : points) {
             const Vec3 normal = geometric_normal(rays.mesh(), p.triangle);
             normal_ += normal;
-            above_.push_back(position(rays.mesh(), p) + kSightHeight * width * normal);
+            normals_.push_back(normal);
+            points_.push_back(position(rays.mesh(), p));
+            above_.push_back(points_.back() + kSightHeight * width * normal);
             middle_ += above_.back() / float(points.size());
         }
     }
@@ -31,57 +38,55 @@ class Parter {
         std::vector<int> of(above_.size(), 0);
         if (of.size() < 2 || !parted_at_all()) return of;
         std::iota(of.begin(), of.end(), 0);
+        std::vector<bool> below(of.size());
+        for (std::size_t i = 0; i < of.size(); ++i) below[i] = under(i);
+        const auto join = [&](std::size_t a, std::size_t b) {
+            std::replace(of.begin(), of.end(), std::max(of[a], of[b]), std::min(of[a], of[b]));
+        };
         for (std::size_t a = 0; a < of.size(); ++a)
             for (std::size_t b = a + 1; b < of.size(); ++b)
-                if (of[a] != of[b] && in_sight(rays_, above_[a], above_[b]))
-                    std::replace(of.begin(), of.end(), std::max(of[a], of[b]), std::min(of[a], of[b]));
-        return numbered(of);
+                if (of[a] != of[b] && below[a] == below[b] && (below[a] || in_sight(rays_, above_[a], above_[b])))
+                    join(a, b);
+        return numbered(of, below);
     }
 
   private:
-    /// From the point in the middle to those that lie farthest out on four sides: what parts a texel lies between.
+    bool under(std::size_t i) const { return covered(rays_, points_[i], normals_[i], above_[i]); }
+
+    /// Whether points are under something, or out of sight of each other: from the one in the middle to those that lie
+    /// farthest out on four sides, since what parts a texel lies between.
     bool parted_at_all() const {
         const auto farthest = [&](const auto& value) {
-            return *std::max_element(above_.begin(), above_.end(),
-                                     [&](const Vec3& a, const Vec3& b) { return value(a) < value(b); });
+            const auto less = [&](const Vec3& a, const Vec3& b) { return value(a) < value(b); };
+            return std::size_t(std::max_element(above_.begin(), above_.end(), less) - above_.begin());
         };
-        const Vec3 from = farthest([&](const Vec3& p) { return -glm::distance(p, middle_); });
+        const std::size_t from = farthest([&](const Vec3& p) { return -glm::distance(p, middle_); });
+        const bool below = under(from);
         const Frame frame(unit_or(normal_, Vec3(0, 1, 0)));
-        for (const Vec3& side : {frame.x + frame.y, frame.x - frame.y, -frame.x + frame.y, -frame.x - frame.y})
-            if (!in_sight(rays_, from, farthest([&](const Vec3& p) { return glm::dot(p - middle_, side); })))
-                return true;
+        for (const Vec3& side : {frame.x + frame.y, frame.x - frame.y, -frame.x + frame.y, -frame.x - frame.y}) {
+            const std::size_t to = farthest([&](const Vec3& p) { return glm::dot(p - middle_, side); });
+            if (under(to) != below || (!below && !in_sight(rays_, above_[from], above_[to]))) return true;
+        }
         return false;
     }
 
-    /// Groups in the open are numbered in the order of their first points; the others' points join the first.
-    std::vector<int> numbered(const std::vector<int>& of) const {
+    /// Groups in the open, and points under something, are numbered in the order of their first points; the others'
+    /// points join the first.
+    std::vector<int> numbered(const std::vector<int>& of, const std::vector<bool>& below) const {
         std::vector<int> number(of.size(), -1), result(of.size(), 0);
         int count = 0;
         for (std::size_t i = 0; i < of.size(); ++i) {
             const auto first = std::size_t(of[i]);
-            if (first == i && !buried(rays_, above_[i])) number[i] = count++;
+            if (first == i && (below[i] || !buried(rays_, above_[i]))) number[i] = count++;
             result[i] = std::max(number[first], 0);
         }
         return result;
     }
 
     const RayScene& rays_;
-    std::vector<Vec3> above_;
+    std::vector<Vec3> points_, normals_, above_;
     Vec3 middle_ = Vec3(0.0f), normal_ = Vec3(0.0f);
 };
-
-/// Calls use(texel) for the first parts of the cells around a texel's and its own, row by row.
-template <class Use>
-void for_cells_around(const Atlas& atlas, const Texels& texels, std::uint32_t texel, const Use& use) {
-    const std::uint32_t chart = texels.chart[texel], first = texels.first_cell[chart];
-    const PlacedChart& c = atlas.charts[chart];
-    const int x = int(texels.cell[texel] - first) % c.nx, y = int(texels.cell[texel] - first) / c.nx;
-    for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, c.ny - 1); ++ny)
-        for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, c.nx - 1); ++nx)
-            if (const std::uint32_t other = texels.texel_of_cell[first + std::uint32_t(ny * c.nx + nx)];
-                other != kNoTexel)
-                use(other);
-}
 
 /// A texel, its point that is nearest to a place, and how far that is.
 struct Candidate {
@@ -109,7 +114,7 @@ void mark(const RayScene& rays, const Atlas& atlas, std::size_t chart, Texels& t
         const std::uint32_t own = texels.texel_of_cell[cell];
         if (own == kNoTexel) continue;
         bool walled = texels.next_part[own] != kNoTexel;
-        for_cells_around(atlas, texels, own, [&](std::uint32_t other) {
+        for_texels_around(atlas, texels, own, 1, [&](std::uint32_t other) {
             if (other > own && !in_sight(rays, texels.above(own), texels.above(other)))
                 walled = true, mark_parts(texels, other);
         });
@@ -124,6 +129,10 @@ Texels make_parted_texels(const RayScene& rays, const Atlas& atlas) {
         return Parter(rays, points, width).groups();
     });
     texels.walled.assign(texels.count(), 0);
+    texels.covered.resize(texels.count());
+    tbb::parallel_for(std::uint32_t(0), std::uint32_t(texels.count()), [&](std::uint32_t t) {
+        texels.covered[t] = covered(rays, texels.position[t], texels.normal[t], texels.above(t));
+    });
     tbb::parallel_for(std::size_t(0), atlas.charts.size(),
                       [&](std::size_t chart) { mark(rays, atlas, chart, texels); });
     return texels;
@@ -141,7 +150,7 @@ std::uint32_t texel_in_sight(const RayScene& rays, const Atlas& atlas, const Tex
     if (seen(candidate(rays.mesh(), texels, nearest, place))) return nearest;
     std::array<Candidate, kMostCandidates> candidates;
     std::size_t count = 0;
-    for_cells_around(atlas, texels, nearest, [&](std::uint32_t first) {
+    for_texels_around(atlas, texels, nearest, 1, [&](std::uint32_t first) {
         texels.for_parts(first, [&](std::uint32_t part) {
             if (part != nearest && count < candidates.size())
                 candidates[count++] = candidate(rays.mesh(), texels, part, place);

@@ -163,15 +163,10 @@ std::vector<std::uint32_t> nearest_usable(int nx, int ny, const std::vector<bool
 std::vector<bool> away_from(const Atlas& atlas, const Texels& texels, const std::vector<bool>& marked) {
     std::vector<bool> away(texels.count());
     for (std::uint32_t t = 0; t < texels.count(); ++t) {
-        const PlacedChart& c = atlas.charts[texels.chart[t]];
-        const std::uint32_t first = texels.first_cell[texels.chart[t]];
-        const int x = int(texels.cell[t] - first) % c.nx, y = int(texels.cell[t] - first) / c.nx;
         bool near = false;
-        for (int dy = std::max(y - 1, 0); dy <= std::min(y + 1, c.ny - 1); ++dy)
-            for (int dx = std::max(x - 1, 0); dx <= std::min(x + 1, c.nx - 1); ++dx) {
-                const std::uint32_t other = texels.texel_of_cell[first + std::uint32_t(dy * c.nx + dx)];
-                texels.for_parts(other, [&](std::uint32_t part) { near = near || marked[part]; });
-            }
+        for_texels_around(atlas, texels, t, 1, [&](std::uint32_t other) {
+            texels.for_parts(other, [&](std::uint32_t part) { near = near || marked[part]; });
+        });
         away[t] = !near;
     }
     return away;

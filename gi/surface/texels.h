@@ -33,7 +33,8 @@ struct Texels {
     std::vector<Vec3> along_u;  // unit, along the surface: in which the atlas coordinate u grows, v still
     std::vector<float> width;   // metres: the side of a square as large as a texel of this chart
 
-    std::vector<std::uint8_t> walled;  // of each texel, not 0: something stands in its cell or beside; empty: unknown
+    std::vector<std::uint8_t> covered;  // of each texel, not 0: something lies on it, or close above; empty: unknown
+    std::vector<std::uint8_t> walled;   // of each texel, not 0: something stands in its cell or beside; empty: unknown
 
     std::size_t count() const { return chart.size(); }
     std::span<const TexelPoint> points_of(std::size_t texel) const {
@@ -55,6 +56,20 @@ struct Texels {
     std::vector<std::uint32_t> nearest_texel_of_cell;
 };
 inline constexpr std::uint32_t kNoTexel = ~0u;
+
+/// Calls use(texel) for the first parts of the cells around a texel's, `reach` of them on every side, and of its own,
+/// row by row.
+template <class Use>
+void for_texels_around(const Atlas& atlas, const Texels& texels, std::uint32_t texel, int reach, const Use& use) {
+    const std::uint32_t chart = texels.chart[texel], first = texels.first_cell[chart];
+    const PlacedChart& c = atlas.charts[chart];
+    const int x = int(texels.cell[texel] - first) % c.nx, y = int(texels.cell[texel] - first) / c.nx;
+    for (int ny = std::max(y - reach, 0); ny <= std::min(y + reach, c.ny - 1); ++ny)
+        for (int nx = std::max(x - reach, 0); nx <= std::min(x + reach, c.nx - 1); ++nx)
+            if (const std::uint32_t other = texels.texel_of_cell[first + std::uint32_t(ny * c.nx + nx)];
+                other != kNoTexel)
+                use(other);
+}
 
 /// Which of a cell's points, in a texel of this width (metres), make a texel of their own: a number for each point,
 /// from 0 without gaps.

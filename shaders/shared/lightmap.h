@@ -6,7 +6,7 @@
 SHARED_BEGIN
 
 const int kLightmapTileSide = 16;  // texels that share their patterns, along either side of the atlas
-const int kLightmapPatterns = 24;  // of a tile, at most; one number a texel, so as many numbers as eight RGB images
+const int kLightmapPatterns = 32;  // of a tile, at most; one number a texel (an RGB image has three)
 const float kLightmapTiltScale = 4.0f;  // stored tilts times this are lux a radian: a normal map's slopes are small
 
 // Irradiance when a normal map turns the normal: SH of two bands, written about the surface's own normal, where it is

@@ -14,8 +14,10 @@ class ReceiverRays {
   public:
     static constexpr std::size_t kMostPoints = 16;
 
-    ReceiverRays(const GatherScene& scene, const GatherSettings& settings, const Receiver& receiver)
-        : random_(settings.seed, 2 * std::uint64_t(receiver.texel) + receiver.back, 0), rays_(settings.rays) {
+    /// round   0, or further rays than the first
+    ReceiverRays(const GatherScene& scene, const GatherSettings& settings, const Receiver& receiver, int round = 0)
+        : random_(settings.seed, 2 * std::uint64_t(receiver.texel) + receiver.back, std::uint64_t(round)),
+          rays_(settings.rays) {
         for (const TexelPoint& p : scene.texels.points_of(receiver.texel)) {
             if (count_ == kMostPoints) break;
             const Vec3 n = geometric_normal(scene.rays.mesh(), p.triangle);

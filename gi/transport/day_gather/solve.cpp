@@ -17,6 +17,7 @@ namespace daylit {
 namespace {
 
 constexpr std::size_t kSampleRows = 3072, kCheckRows = 1024;
+constexpr int kSampleReach = 2;      // texels about a sampled one
 constexpr std::size_t kChunk = 512;  // receivers whose sums belong together, whatever the threads
 constexpr std::size_t kAhead = 6;    // rows fetched ahead of their use
 
@@ -61,7 +62,9 @@ class Solver {
 
     // ---- components ----
 
-    /// Receivers spread over all fronts, every other one for checking.
+    /// Receivers spread over all fronts, every other one for checking. Each is the mean of the texels about it in its
+    /// chart: light that moves over few rays' hits comes and goes as no light does, and components would be spent on
+    /// it.
     SampleRows sample(std::size_t wanted, std::size_t offset) const {
         const std::size_t fronts = scene_.texels.count(), count = std::min(wanted, fronts);
         SampleRows rows{light_.columns.suns + light_.columns.skies, {}};
@@ -70,27 +73,35 @@ class Solver {
         const StageProgress silent{Progress{}};
         for_each_parallel(count, silent, [&](std::size_t i) {
             const std::size_t receiver = ((2 * i + offset) * fronts / (2 * count)) % fronts;
-            float* row = rows.row(i);
-            for (std::uint32_t hit : hits_of(receiver)) {
-                if (hit == kNoLight) continue;
-                if (hit & kSkyBit) {
-                    const float* bin = sky.data() + (hit & ~kSkyBit) * 3 * light_.columns.skies;
-                    for (std::size_t channel = 0; channel < 3; ++channel)
-                        for (std::size_t k = 0; k < light_.columns.skies; ++k)
-                            row[channel * rows.columns + light_.columns.suns + k] +=
-                                bin[channel * light_.columns.skies + k];
-                } else {
-                    add_sun(hit, rows.columns, row);
-                }
-            }
-            for (std::size_t k = 0; k < 3 * rows.columns; ++k) row[k] *= hits_.scale[receiver];
+            float lit = 0.0f;
+            for_texels_around(scene_.atlas, scene_.texels, std::uint32_t(receiver), kSampleReach, [&](std::uint32_t t) {
+                add_light(t, sky, rows.columns, rows.row(i));
+                lit += hits_.buried(t) ? 0.0f : 1.0f;
+            });
+            for (std::size_t k = 0; k < 3 * rows.columns; ++k) rows.row(i)[k] /= std::max(lit, 1.0f);
         });
         return rows;
     }
 
+    /// What a receiver gathers straight from sky and sunlit surfaces, in full.
+    void add_light(std::size_t receiver, const std::vector<float>& sky, std::size_t columns, float* row) const {
+        for (const std::uint32_t hit : hits_of(receiver)) {
+            if (hit == kNoLight) continue;
+            if (!(hit & kSkyBit)) {
+                add_sun(hit, hits_.scale[receiver], columns, row);
+                continue;
+            }
+            const float* bin = sky.data() + (hit & ~kSkyBit) * 3 * light_.columns.skies;
+            for (std::size_t channel = 0; channel < 3; ++channel)
+                for (std::size_t k = 0; k < light_.columns.skies; ++k)
+                    row[channel * columns + light_.columns.suns + k] +=
+                        hits_.scale[receiver] * bin[channel * light_.columns.skies + k];
+        }
+    }
+
     /// Reflected sunlight of a receiver, in full.
-    void add_sun(std::size_t receiver, std::size_t columns, float* row) const {
-        const Rgb reflected = albedo(receiver);
+    void add_sun(std::size_t receiver, float scale, std::size_t columns, float* row) const {
+        const Rgb reflected = scale * albedo(receiver);
         for (std::size_t channel = 0; channel < 3; ++channel) {
             if (!direct_.suns.empty())
                 row[channel * columns] += reflected[int(channel)] * direct_.suns[receiver][int(channel)];

@@ -2,46 +2,24 @@
 
 #include <array>
 
-#include "gi/transport/day_gather/bfloat.h"
 #include "gi/transport/day_gather/receiver_rays.h"
 
 namespace daylit {
 namespace {
 
-constexpr std::size_t kMostNumbers = 3 * 64;  // of a receiver's light
-constexpr std::size_t kAhead = 6;             // rows fetched ahead of their use
-
-/// All light that leaves receivers and sky bins, at half the bytes.
-std::vector<std::uint16_t> halved(std::span<const Rgb> light) {
-    std::vector<std::uint16_t> result(3 * light.size());
-    const StageProgress silent{Progress{}};
-    constexpr std::size_t kBlock = 1 << 16;
-    for_each_parallel((light.size() + kBlock - 1) / kBlock, silent, [&](std::size_t block) {
-        for (std::size_t i = block * kBlock; i < std::min(light.size(), (block + 1) * kBlock); ++i)
-            for (int c = 0; c < 3; ++c) result[3 * i + std::size_t(c)] = to_bfloat(light[i][c]);
-    });
-    return result;
-}
-
-void gather_tilts(const GatherScene& scene, const GatherHits& hits, const DaySolution& day,
-                  std::span<const std::uint16_t> light, const GatherSettings& settings, std::uint32_t texel, Rgb* out) {
-    const std::size_t components = day.basis.components, width = 3 * components;
+void gather_tilts(const GatherScene& scene, const GatherHits& hits, const DaySolution& day, const HalvedLight& light,
+                  const GatherSettings& settings, std::uint32_t texel, Rgb* out) {
+    constexpr int kAhead = int(HalvedLight::kAhead);
+    const std::size_t components = day.basis.components;
     const std::uint32_t* hit = hits.hit.data() + std::size_t(texel) * std::size_t(hits.rays);
     const ReceiverRays rays(scene, settings, hits.receivers[texel]);
     const TiltFrame frame = tilt_frame(scene, texel);
-    std::array<float, kMostNumbers> u{}, v{};
+    std::array<float, HalvedLight::kMostNumbers> u{}, v{};
     for (int j = 0; j < hits.rays; ++j) {
-        if (j + int(kAhead) < hits.rays && hit[j + int(kAhead)] != kNoLight) {
-            const std::uint16_t* ahead = light.data() + hits.source(hit[j + int(kAhead)]) * width;
-            for (std::size_t line = 0; line < width; line += 32) __builtin_prefetch(ahead + line);
-        }
+        if (j + kAhead < hits.rays && hit[j + kAhead] != kNoLight) light.prefetch(hits.source(hit[j + kAhead]));
         if (hit[j] == kNoLight) continue;
-        const Vec2 weight = tilt_weights(frame, rays.normal_of(rays.point_of(j)), rays.direction(j));
-        const std::uint16_t* row = light.data() + hits.source(hit[j]) * width;
-        for (std::size_t i = 0; i < width; ++i) {
-            const float value = from_bfloat(row[i]);
-            u[i] += weight.x * value, v[i] += weight.y * value;
-        }
+        const Vec2 weights = tilt_weights(frame, rays.normal_of(rays.point_of(j)), rays.direction(j));
+        light.add(hits.source(hit[j]), weights, u.data(), v.data());
     }
     const float scale = hits.scale[texel];
     for (std::size_t i = 0; i < components; ++i) {
@@ -103,7 +81,8 @@ std::vector<bool> normal_mapped(const GatherScene& scene) {
 }
 
 TexelTilts texel_tilts(const GatherScene& scene, const GatherHits& hits, const DaySolution& day,
-                       const std::vector<bool>& wanted, const GatherSettings& settings, const StageProgress& progress) {
+                       const HalvedLight& light, const std::vector<bool>& wanted, const GatherSettings& settings,
+                       const StageProgress& progress) {
     TexelTilts tilts;
     tilts.row_of_texel.assign(wanted.size(), ~0u);
     for (std::uint32_t t = 0; t < wanted.size(); ++t)
@@ -111,7 +90,6 @@ TexelTilts texel_tilts(const GatherScene& scene, const GatherHits& hits, const D
     if (tilts.count() == 0) return tilts;
     const std::size_t stride = 2 * day.basis.components;
     tilts.rows.resize(tilts.count() * stride);
-    const std::vector<std::uint16_t> light = halved(day.leaving);
     for_each_parallel(tilts.count(), progress, [&](std::size_t row) {
         gather_tilts(scene, hits, day, light, settings, tilts.texel_of_row[row], tilts.rows.data() + row * stride);
     });

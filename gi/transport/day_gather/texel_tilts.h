@@ -2,6 +2,7 @@
 // How irradiance changes as a texel's normal leans: what normal maps ask of a lightmap.
 #include "gi/surface/smooth.h"
 #include "gi/transport/day_gather/day_gather.h"
+#include "gi/transport/day_gather/halved_light.h"
 
 namespace daylit {
 
@@ -29,7 +30,8 @@ struct TexelTilts {
 /// as if they were there, which bounds the noise.
 /// wanted   per texel
 TexelTilts texel_tilts(const GatherScene& scene, const GatherHits& hits, const DaySolution& day,
-                       const std::vector<bool>& wanted, const GatherSettings& settings, const StageProgress& progress);
+                       const HalvedLight& light, const std::vector<bool>& wanted, const GatherSettings& settings,
+                       const StageProgress& progress);
 
 /// Neighbours mixed as their irradiance is (gi/surface/smooth.h), each turned into the other's frame; those without
 /// tilts are left out.
