@@ -162,7 +162,7 @@ void smooth_all(const SolvedDay& solved, const std::vector<bool>& open, Lightmap
 LightmapRows lightmap_rows(SolvedDay& solved, const StageProgress& progress) {
     const std::vector<bool> open = in_the_open(solved.texels, solved.hits);
     LightmapRows result;
-    result.moments = moments(solved.day, solved.input.light);
+    result.moments = solved.moments;
     result.basis = light_basis(solved.day.basis);
     const HalvedLight light(solved.day);
     if (solved.input.settings.directional)

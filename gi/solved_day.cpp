@@ -67,7 +67,8 @@ SolvedDay::SolvedDay(const BakeInput& from, const Progress& progress)
       texels(make_parted_texels(rays, atlas)),
       gather(gather_scene(rays, atlas, texels, input.lamps)),
       hits(hits_of(input, gather, how, progress)),
-      day(solution_of(input, gather, hits, how, progress)) {}
+      day(solution_of(input, gather, hits, how, progress)),
+      moments(daylit::moments(day, input.light)) {}
 
 LeavingLight SolvedDay::leaving() const {
     return {day.basis.components, day.leaving, day.basis.component_of(StillPart::Lamps),

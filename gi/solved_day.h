@@ -44,6 +44,7 @@ struct SolvedDay {
     GatherScene gather;
     GatherHits hits;
     DaySolution day;
+    std::vector<Moment> moments;  // at which encodings of it are judged
 
     LeavingLight leaving() const;
 };

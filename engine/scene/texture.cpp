@@ -31,15 +31,16 @@ float near_origin(float u, Wrap wrap) {
     return wrap == Wrap::Clamp ? std::clamp(u, -1.0f, 2.0f) : u - 2.0f * std::floor(0.5f * u);
 }
 
-Rgba texel(const Image8& image, const Texture& texture, int x, int y, bool srgb) {
-    const auto column = std::size_t(wrapped(x, image.width, texture.wrap_s));
-    const auto row = std::size_t(wrapped(y, image.height, texture.wrap_t));
-    const std::uint8_t* p = &image.rgba[4 * (row * std::size_t(image.width) + column)];
-    if (srgb) {
-        const std::array<float, 256>& decode = srgb_table();
-        return Rgba(decode[p[0]], decode[p[1]], decode[p[2]], float(p[3]) / 255.0f);
-    }
+// How the four bytes of a texel are read.
+Rgba as_coded(const std::uint8_t* p) {
     return Rgba(p[0], p[1], p[2], p[3]) / 255.0f;
+}
+Rgba decoded(const std::uint8_t* p) {
+    const std::array<float, 256>& decode = srgb_table();
+    return Rgba(decode[p[0]], decode[p[1]], decode[p[2]], float(p[3]) / 255.0f);
+}
+float alpha_alone(const std::uint8_t* p) {
+    return float(p[3]) / 255.0f;
 }
 
 Vec2 transformed_uv(const TextureRef& ref, const std::array<Vec2, 2>& uvs) {
@@ -49,21 +50,33 @@ Vec2 transformed_uv(const TextureRef& ref, const std::array<Vec2, 2>& uvs) {
     return Vec2(m[0] * uv.x + m[1] * uv.y + m[2], m[3] * uv.x + m[4] * uv.y + m[5]);
 }
 
-Rgba sample(const Scene& scene, const TextureRef& ref, const std::array<Vec2, 2>& uvs, bool srgb) {
-    if (ref.texture < 0) return Rgba(1.0f);
+template <auto Read>
+auto sample(const Scene& scene, const TextureRef& ref, const std::array<Vec2, 2>& uvs) -> decltype(Read(nullptr)) {
+    if (ref.texture < 0) return decltype(Read(nullptr))(1.0f);
     const Texture& texture = scene.textures[std::size_t(ref.texture)];
     const Image8& image = scene.images[std::size_t(texture.image)];
+    const auto texel = [&](int x, int y) {
+        const auto column = std::size_t(wrapped(x, image.width, texture.wrap_s));
+        const auto row = std::size_t(wrapped(y, image.height, texture.wrap_t));
+        return Read(&image.rgba[4 * (row * std::size_t(image.width) + column)]);
+    };
     const Vec2 uv = transformed_uv(ref, uvs);
-    if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) return texel(image, texture, 0, 0, srgb);
+    if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) return texel(0, 0);
     const float x = near_origin(uv.x, texture.wrap_s) * float(image.width);
     const float y = near_origin(uv.y, texture.wrap_t) * float(image.height);
-    if (texture.filter == Filter::Nearest) return texel(image, texture, int(std::floor(x)), int(std::floor(y)), srgb);
+    if (texture.filter == Filter::Nearest) return texel(int(std::floor(x)), int(std::floor(y)));
     // OpenGL 4.5, section 8.14.3: texel centres lie at halves.
     const float left = std::floor(x - 0.5f), top = std::floor(y - 0.5f);
     const float fx = x - 0.5f - left, fy = y - 0.5f - top;
     const int ix = int(left), iy = int(top);
-    const auto at = [&](int dx, int dy) { return texel(image, texture, ix + dx, iy + dy, srgb); };
-    return glm::mix(glm::mix(at(0, 0), at(1, 0), fx), glm::mix(at(0, 1), at(1, 1), fx), fy);
+    return glm::mix(glm::mix(texel(ix, iy), texel(ix + 1, iy), fx),
+                    glm::mix(texel(ix, iy + 1), texel(ix + 1, iy + 1), fx), fy);
+}
+
+float after_alpha_mode(const Material& material, float alpha) {
+    if (material.alpha_mode == AlphaMode::Opaque) return 1.0f;
+    if (material.alpha_mode == AlphaMode::Mask) return alpha >= material.alpha_cutoff ? 1.0f : 0.0f;
+    return alpha;
 }
 
 /// Normal reflectance of a dielectric coat (KHR_materials_ior, KHR_materials_specular), at most 1.
@@ -75,18 +88,23 @@ Rgb dielectric_f0(const Material& material) {
 }  // namespace
 
 Rgba sample_texture(const Scene& scene, const TextureRef& ref, const std::array<Vec2, 2>& uvs) {
-    return sample(scene, ref, uvs, false);
+    return sample<as_coded>(scene, ref, uvs);
 }
 
 Rgba sample_texture_srgb(const Scene& scene, const TextureRef& ref, const std::array<Vec2, 2>& uvs) {
-    return sample(scene, ref, uvs, true);
+    return sample<decoded>(scene, ref, uvs);
 }
 
-Rgba base_color(const Scene& scene, const Material& material, const std::array<Vec2, 2>& uvs, const Rgba& vertex_color) {
+Rgba base_color(const Scene& scene, const Material& material, const std::array<Vec2, 2>& uvs,
+                const Rgba& vertex_color) {
     Rgba color = material.base_color * vertex_color * sample_texture_srgb(scene, material.base_color_texture, uvs);
-    if (material.alpha_mode == AlphaMode::Opaque) color.a = 1.0f;
-    if (material.alpha_mode == AlphaMode::Mask) color.a = color.a >= material.alpha_cutoff ? 1.0f : 0.0f;
+    color.a = after_alpha_mode(material, color.a);
     return color;
+}
+
+float coverage(const Scene& scene, const Material& material, const std::array<Vec2, 2>& uvs, float vertex_alpha) {
+    return after_alpha_mode(
+        material, material.base_color.a * vertex_alpha * sample<alpha_alone>(scene, material.base_color_texture, uvs));
 }
 
 Rgb emission(const Scene& scene, const Material& material, const std::array<Vec2, 2>& uvs) {

@@ -10,8 +10,12 @@ Rgba sample_texture(const Scene& scene, const TextureRef& ref, const std::array<
 /// Bilinear mixing of *decoded* values, as GL does for SRGB8_ALPHA8: RGB linear, A as is.
 Rgba sample_texture_srgb(const Scene& scene, const TextureRef& ref, const std::array<Vec2, 2>& uvs);
 
-/// Base colour times vertex colour times texture; .a is coverage after the alpha mode: OPAQUE 1, MASK 0 or 1, BLEND alpha.
+/// Base colour times vertex colour times texture; .a is coverage after the alpha mode: OPAQUE 1, MASK 0 or 1, BLEND
+/// alpha.
 Rgba base_color(const Scene& scene, const Material& material, const std::array<Vec2, 2>& uvs, const Rgba& vertex_color);
+
+/// The .a of base_color() alone, which rays through leaves and lattices ask for all the time.
+float coverage(const Scene& scene, const Material& material, const std::array<Vec2, 2>& uvs, float vertex_alpha);
 
 /// Emitted radiance, cd/m^2, of both sides.
 Rgb emission(const Scene& scene, const Material& material, const std::array<Vec2, 2>& uvs);

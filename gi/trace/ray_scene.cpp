@@ -114,9 +114,8 @@ class SeenTriangles {
     bool add(std::uint32_t triangle) {
         std::array<Vec3, 3> corners;
         for (std::size_t k = 0; k < 3; ++k) corners[k] = mesh_.positions[mesh_.indices[3 * std::size_t(triangle) + k]];
-        std::sort(corners.begin(), corners.end(), [](const Vec3& a, const Vec3& b) {
-            return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-        });
+        std::sort(corners.begin(), corners.end(),
+                  [](const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
         return !seen_.insert(corners).second;
     }
 
@@ -169,7 +168,7 @@ struct RayScene::State {
     std::vector<Vec3> normals;                          // one per triangle of the mesh; zero: left out
     std::array<std::vector<std::uint32_t>, 2> members;  // triangles of the two geometries: opaque, varying coverage
     std::vector<bool> traced;
-    std::vector<std::uint8_t> details;                  // one per triangle: what surface_point must interpolate
+    std::vector<std::uint8_t> details;  // one per triangle: what surface_point must interpolate
     std::vector<Ray>* log = nullptr;
     Owned<RTCDevice> device;
     Owned<RTCScene> accelerator;
@@ -239,9 +238,8 @@ void RayScene::State::attach(unsigned geometry_id, RTCBuffer vertices) {
     rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
     rtcSetGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices, 0, sizeof(Vec3),
                          mesh.positions.size());
-    auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
-                                                                        RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t),
-                                                                        triangles.size()));
+    auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), triangles.size()));
     if (!indices) throw Error("Embree", "not enough memory for the scene's triangles");
     for (std::size_t i = 0; i < triangles.size(); ++i)
         std::memcpy(indices + 3 * i, &mesh.indices[3 * std::size_t(triangles[i])], 3 * sizeof(std::uint32_t));
@@ -258,9 +256,8 @@ void RayScene::State::attach(unsigned geometry_id, RTCBuffer vertices) {
 float RayScene::State::alpha(std::uint32_t triangle, const Vec2& barycentric) const {
     const std::uint32_t* corner = &mesh.indices[3 * std::size_t(triangle)];
     const Material& material = scene.materials[mesh.materials[triangle]];
-    return base_color(scene, material, interpolate_uvs(mesh, corner, barycentric),
-                      interpolate(mesh.colors, corner, barycentric))
-        .a;
+    return coverage(scene, material, interpolate_uvs(mesh, corner, barycentric),
+                    interpolate(mesh.colors, corner, barycentric).a);
 }
 
 /// The shading normal on the side of the geometric one.
@@ -271,8 +268,8 @@ Vec3 RayScene::State::bent_normal(const Hit& hit, const SurfacePoint& point) con
     Vec3 normal = normalized_or(interpolate(mesh.normals, corner, hit.barycentric), hit.normal);
     if (glm::dot(normal, hit.normal) < 0.0f) normal = -normal;
     if (material.normal_texture.texture >= 0)
-        normal = shading_normal(scene, material, point.uvs, normal,
-                                interpolate(mesh.tangents, corner, hit.barycentric));
+        normal =
+            shading_normal(scene, material, point.uvs, normal, interpolate(mesh.tangents, corner, hit.barycentric));
     // A steep bump may lean under the surface; mirrored above it, it still sees the light it should.
     const float below = glm::dot(normal, hit.normal);
     if (below < 0.0f) normal = normalized_or(normal - 2.0f * below * hit.normal, hit.normal);
