@@ -79,6 +79,16 @@ void fill_around(MeshBuilder& builder, const Rect& r, const Loop& loop, bool out
     }
 }
 
+// The same a little behind and wider: rest and wall share no vertices along their seam, and through the hair cracks
+// that rasterisers leave there the sky would shine.
+void back_the_seam(MeshBuilder& builder, Rect r, Loop loop, bool outer, bool open_bottom) {
+    constexpr float kBehind = 0.008f, kWider = 0.01f;
+    loop.depth += outer ? kBehind : -kBehind;
+    r.low -= Vec2(kWider, open_bottom ? 0.0f : kWider);
+    r.high += kWider;
+    fill_around(builder, r, loop, outer);
+}
+
 }  // namespace
 
 float head_height(Head head, float width) {
@@ -144,8 +154,10 @@ void add_opening(Blocks& blocks, MeshBuilder& builder, const Opening& o) {
     flush.at(frame);
     flush.material(o.outer_wall);
     fill_around(flush, r, o.loops.front(), true);
+    back_the_seam(flush, r, o.loops.front(), true, o.open_bottom);
     flush.material(o.inner_wall);
     fill_around(flush, r, o.loops.back(), false);
+    back_the_seam(flush, r, o.loops.back(), false, o.open_bottom);
     LevelMesh faces = flush.take("");
     builder.at(Mat4(1.0f));
     for (const auto& [material, g] : faces.parts) {
