@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 """The figures of RESULTS.md, measured: prints Markdown tables.
 
-  figures.py DAYLIT WORK [direct] [contexts] [cold] [renders] [lightmap] [--shared FOLDER]
+  figures.py DAYLIT WORK [direct] [contexts] [cold] [renders] [lightmap] [views] [moved] [--shared FOLDER] [--hours 9,12]
 
 direct    shot --show direct against reference --show direct: demo level and two shared scenes, 3 cameras, 3 hours
 contexts  largest difference between EGL, OSMesa and GLFW on every camera of the demo level at 3 hours (needs a display)
 cold      whole-process time of one shot of the demo level
 renders   reference against the independent renders of the shared folder
 lightmap  baked irradiance at random surface points against the reference
+views     shot against reference, final and indirect, every named camera (medium.daylit in WORK, baked when missing)
+moved     the cart with the teapot moved to ten spots: final light against the reference on its pixels (the same bake)
 """
 import json
 import pathlib
@@ -21,14 +23,19 @@ if "--shared" in arguments:
     at = arguments.index("--shared")
     shared = pathlib.Path(arguments[at + 1])
     del arguments[at:at + 2]
+hours = (7, 12, 18)
+if "--hours" in arguments:
+    at = arguments.index("--hours")
+    hours = tuple(int(hour) for hour in arguments[at + 1].split(","))
+    del arguments[at:at + 2]
 if len(arguments) < 2:
     sys.exit(__doc__)
 daylit, work = arguments[0], pathlib.Path(arguments[1])
 wanted = arguments[2:] or ["direct", "contexts", "cold", "renders", "lightmap"]
 work.mkdir(parents=True, exist_ok=True)
-HOURS = (7, 12, 18)
 LEVEL = work / "koldinghus.glb"
 LIGHT = work / "koldinghus.daylit"
+MEDIUM = work / "medium.daylit"
 
 
 def run(*command):
@@ -72,23 +79,27 @@ def direct():
         if not scene.exists():
             print(f"| {name} | | skipped: {scene} is missing |")
             continue
-        for hour in HOURS:
+        for hour in hours:
             stem = f"direct-{name.replace(' ', '-')}-{hour}"
             ours, reference = work / f"{stem}.exr", work / f"{stem}.reference.exr"
             view = [*where, "--hour", hour, "--size", "320x180", "--show", "direct"]
             run("shot", scene, "-o", ours, *view)
-            told = json.loads(run("reference", scene, "-o", reference, *view, "--spp", "4096" if "treasury" in name else "512", "--json"))
+            told = json.loads(run("reference", scene, "-o", reference, *view, "--spp", 4096 if "treasury" in name else 512,
+                                  "--json"))
             m = compare(ours, reference)
             print(f"| {name} | {hour} | {m['bias']:+.4f} | {m['flip_mean']:.4f} | {m['flip_p95']:.4f} "
                   f"| {told['relative_error']:.4f} |", flush=True)
 
 
+def cameras():
+    return [camera["name"] if isinstance(camera, dict) else camera
+            for camera in json.loads(run("check", level(), "--json"))["cameras"]]
+
+
 def contexts():
-    cameras = [camera["name"] if isinstance(camera, dict) else camera
-               for camera in json.loads(run("check", level(), "--json"))["cameras"]]
     print("| camera | hour | EGL - OSMesa | EGL - GLFW |\n|---|---|---|---|")
-    for camera in cameras:
-        for hour in HOURS:
+    for camera in cameras():
+        for hour in hours:
             shots = {}
             for kind in ("egl", "osmesa", "glfw"):
                 shots[kind] = work / f"context-{kind}.png"
@@ -97,6 +108,63 @@ def contexts():
             steps = [json.loads(run("compare", shots["egl"], shots[other], "--json"))["max_abs_8bit"]
                      for other in ("osmesa", "glfw")]
             print(f"| {camera} | {hour} | {steps[0]}/255 | {steps[1]}/255 |", flush=True)
+
+
+def medium():
+    if not MEDIUM.exists():
+        run("bake", level(), "-o", MEDIUM, "--quality", "medium")
+    return MEDIUM
+
+
+def views():
+    print("| camera | hour | final: flip_mean | bias | s.e. | indirect: nrmse | bias | s.e. |\n|---|---|---|---|---|---|---|---|")
+    for camera in cameras():
+        for hour in hours:
+            row = {}
+            for show in ("final", "indirect"):
+                ours, reference = work / f"{camera}-{hour}-{show}.exr", work / f"{camera}-{hour}-{show}.reference.exr"
+                view = ["--camera", camera, "--hour", hour, "--size", "160x90", "--show", show]
+                run("shot", level(), "-o", ours, "--light", medium(), *view)
+                told = json.loads(run("reference", level(), "-o", reference, *view, "--spp", 512, "--json"))
+                row[show] = compare(ours, reference) | {"error": told["relative_error"]}
+            final, indirect = row["final"], row["indirect"]
+            print(f"| {camera} | {hour} | {final['flip_mean']:.3f} | {final['bias']:+.3f} | {final['error']:.3f} "
+                  f"| {indirect['nrmse']:.3f} | {indirect['bias']:+.3f} | {indirect['error']:.3f} |", flush=True)
+
+
+# Where the cart's wheels stand: hall, by its windows, doorway, courtyard in sun and shade, arcade, treasury.
+SPOTS = ((-6, 0.3, 18), (4, 0.3, 17), (9, 0.3, 20.5), (-10, 0.3, 15), (6, 0.3, 13), (0, 0, 3), (-6, 0, -4), (5, 0, -12.4),
+         (-8, 0, -12.4), (18.5, 0.3, 4.5))
+
+
+def moved():
+    try:
+        import numpy
+        import OpenImageIO
+    except ImportError:
+        sys.exit("moved: NOT RUN, Python's numpy and OpenImageIO are missing")
+
+    def pixels(path):
+        image = OpenImageIO.ImageInput.open(str(path))
+        size = image.spec()
+        return numpy.asarray(image.read_image(OpenImageIO.FLOAT)).reshape(size.height, size.width, -1)[:, :, :3]
+
+    print("| spot | hour | nrmse on the cart | bias |\n|---|---|---|---|")
+    for x, y, z in SPOTS:
+        for hour in hours:
+            view = ["--eye", f"{x - 1.6},{y + 1.3},{z - 1.2}", "--at", f"{x},{y + 0.55},{z}", "--fov", 50, "--hour", hour,
+                    "--size", "160x120"]
+            here, away = ["--move", f"rolling cart={x},{y},{z}"], ["--move", "rolling cart=0,-50,0"]
+            shots = {name: work / f"moved-{name}.exr" for name in ("here", "away", "ours", "reference")}
+            run("shot", level(), "-o", shots["here"], *view, *here, "--show", "depth")
+            run("shot", level(), "-o", shots["away"], *view, *away, "--show", "depth")
+            run("shot", level(), "-o", shots["ours"], *view, *here, "--light", medium())
+            run("reference", level(), "-o", shots["reference"], *view, *here, "--spp", 512)
+            image = {name: pixels(path) for name, path in shots.items()}
+            cart = numpy.abs(image["here"][:, :, 0] - image["away"][:, :, 0]) > 0.02
+            ours, truth = image["ours"][cart], image["reference"][cart]
+            print(f"| {x}, {y}, {z} | {hour} | {numpy.sqrt(numpy.mean((ours - truth) ** 2)) / truth.mean():.3f} "
+                  f"| {ours.mean() / truth.mean() - 1:+.3f} |", flush=True)
 
 
 def cold():
@@ -139,7 +207,7 @@ def lightmap():
     points = work / "points.csv"
     run("points", level(), "--sample", "surface", "--count", 2000, "--seed", 1, "-o", points)
     print("| hour | nrmse | bias | p95 |\n|---|---|---|---|")
-    for hour in HOURS:
+    for hour in hours:
         ours, reference = work / f"lightmap-{hour}.csv", work / f"reference-{hour}.csv"
         run("points", LEVEL, "--in", points, "--hour", hour, "--method", "lightmap", "--light", LIGHT, "-o", ours)
         run("points", LEVEL, "--in", points, "--hour", hour, "--method", "reference", "--spp", 1024, "-o", reference)
@@ -149,4 +217,5 @@ def lightmap():
 
 for figure in wanted:
     print(f"\n### {figure}\n")
-    {"direct": direct, "contexts": contexts, "cold": cold, "renders": renders, "lightmap": lightmap}[figure]()
+    {"direct": direct, "contexts": contexts, "cold": cold, "renders": renders, "lightmap": lightmap,
+     "views": views, "moved": moved}[figure]()
