@@ -1,6 +1,7 @@
 // The atlas: nothing overlaps, nothing is left out, and a fetch never leaves its chart.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -121,6 +122,43 @@ TEST_P(Unwrap, FetchesStayInTheirChart) {
             EXPECT_LT(int(std::floor(low.y)) + 1, c.y + c.atlas_height());
         }
     }
+}
+
+/// As vertices keep coordinates (engine/render/draw_mesh.cpp), and as a GPU reads them.
+Vec2 in_16_bits(const Vec2& uv) {
+    return glm::round(uv * 65535.0f) / 65535.0f;
+}
+
+/// Texels, the least of all corners, from the outermost texel centres of its chart; negative outside.
+float nearest_to_a_rim(const Atlas& atlas) {
+    const Vec2 size(float(atlas.width), float(atlas.height));
+    float nearest = INFINITY;
+    for (const PlacedChart& c : atlas.charts) {
+        const Vec2 first = Vec2(float(c.x), float(c.y)) + 0.5f,
+                   last = first + Vec2(float(c.atlas_width() - 1), float(c.atlas_height() - 1));
+        for (const std::uint32_t t : c.chart.triangles)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Vec2 place = in_16_bits(atlas.corner_uvs[3 * std::size_t(t) + k]) * size;
+                const Vec2 away = glm::min(place - first, last - place);
+                nearest = std::min({nearest, away.x, away.y});
+            }
+    }
+    return nearest;
+}
+
+// A filter of 8 bits that is asked for a place within 1/256 texel of a centre may take some of the texel beyond.
+constexpr float kAway = 1.0f / 128.0f;
+
+TEST_P(Unwrap, RoundedCornersKeepAwayFromNeighboursInTheAtlas) {
+    const WorldMesh mesh = GetParam()();
+    for (const std::size_t texels : {300u, 4000u, 60000u}) EXPECT_GE(nearest_to_a_rim(make_atlas(mesh, texels)), kAway);
+}
+
+// Coordinates are rounded to a share of the atlas's side, so in a large one by more of a texel.
+TEST(UnwrapLarge, RoundedCornersKeepAwayFromNeighboursInTheAtlas) {
+    const Atlas atlas = make_atlas(gravel(), 1800000);
+    ASSERT_GT(std::max(atlas.width, atlas.height), 1400);
+    EXPECT_GE(nearest_to_a_rim(atlas), kAway);
 }
 
 TEST_P(Unwrap, EveryTriangleHasTexelsNearIt) {
