@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <numeric>
 #include <optional>
 
@@ -23,12 +24,16 @@ std::vector<bool> in_the_open(const Texels& texels, const GatherHits& hits) {
     return open;
 }
 
+/// Of texels in the open, those that nothing lies on.
+std::vector<bool> bare(const Texels& texels, std::vector<bool> open) {
+    for (std::size_t t = 0; t < open.size(); ++t) open[t] = open[t] && !texels.covered[t];
+    return open;
+}
+
 /// Of texels in the open, those under something, beside others of their chart that are not: hidden themselves, and what
 /// is seen beside them is interpolated from them.
 std::vector<bool> under_a_rim(const Atlas& atlas, const Texels& texels, const std::vector<bool>& open) {
-    std::vector<bool> bare(texels.count());
-    for (std::size_t t = 0; t < bare.size(); ++t) bare[t] = open[t] && !texels.covered[t];
-    std::vector<bool> result = away_from(atlas, texels, bare);
+    std::vector<bool> result = away_from(atlas, texels, bare(texels, open));
     for (std::size_t t = 0; t < result.size(); ++t) result[t] = open[t] && texels.covered[t] && !result[t];
     return result;
 }
@@ -43,6 +48,25 @@ std::vector<bool> shown(const Atlas& atlas, const Texels& texels, const GatherHi
     const std::vector<bool> rim = under_a_rim(atlas, texels, open);
     for (std::size_t t = 0; t < result.size(); ++t) result[t] = result[t] || (open[t] && !rim[t]);
     return result;
+}
+
+/// Cells that show nothing of their own show the nearest bare texel beside them, not what lies as near but deeper under
+/// what hides them.
+/// row   per texel; those of hidden cells are changed
+void show_bare_neighbours(const Atlas& atlas, const Texels& texels, const std::vector<bool>& bare,
+                          std::vector<std::uint32_t>& row) {
+    const std::vector<std::uint32_t> own = row;
+    for (const std::uint32_t t : texels.texel_of_cell) {
+        if (t == kNoTexel || own[t] != kNoTexel) continue;
+        float least = INFINITY;
+        for_texels_around(atlas, texels, t, 1, [&](std::uint32_t other) {
+            if (own[other] == kNoTexel) return;
+            texels.for_parts(other, [&](std::uint32_t part) {
+                const float away = glm::distance(texels.position[part], texels.position[t]);
+                if (bare[part] && away < least) least = away, row[t] = own[other];
+            });
+        });
+    }
 }
 
 std::vector<bool> both(std::vector<bool> a, const std::vector<bool>& b) {
@@ -177,9 +201,10 @@ LightmapRows lightmap_rows(SolvedDay& solved, const StageProgress& progress) {
     smooth_all(solved, open, result);
     result.shape.width = solved.atlas.width, result.shape.height = solved.atlas.height;
     result.shape.corner_uvs = solved.atlas.corner_uvs;
-    result.row_of_pixel =
-        rows_of_pixels(solved.atlas, solved.texels,
-                       rows_of_texels(solved, shown(solved.atlas, solved.texels, solved.hits, open), result));
+    std::vector<std::uint32_t> row =
+        rows_of_texels(solved, shown(solved.atlas, solved.texels, solved.hits, open), result);
+    show_bare_neighbours(solved.atlas, solved.texels, bare(solved.texels, open), row);
+    result.row_of_pixel = rows_of_pixels(solved.atlas, solved.texels, row);
     return result;
 }
 
