@@ -104,6 +104,7 @@ Level koldinghus() {
              .cellar = 0,
              .arcade = 0,
              .gate = 0,
+             .moat = 0,
              .hall_trim = {},
              .treasury_trim = {},
              .court_trim = {}};
@@ -117,15 +118,20 @@ Level koldinghus() {
     c.cellar = c.blocks.add_room({use.field_stone, use.field_stone, use.brick});
     c.arcade = c.blocks.add_room({use.plaster, use.cobbles, use.boards});
     c.gate = c.blocks.add_room({use.brick, use.cobbles, use.plaster});
+    c.moat = c.blocks.add_room({-1, use.water, -1});
 
     build_grounds(c);
     build_courtyard(c);
     build_hall(c);
     build_treasury(c);
     build_cellar(c);
-    const std::pair<const char*, int> shells[] = {{"castle and grounds", c.open_air}, {"hall walls", c.hall},
-                                                  {"treasury walls", c.treasury},     {"cellar walls", c.cellar},
-                                                  {"arcade walls", c.arcade},         {"gate walls", c.gate}};
+    const std::pair<const char*, int> shells[] = {{"castle and grounds", c.open_air},
+                                                  {"hall walls", c.hall},
+                                                  {"treasury walls", c.treasury},
+                                                  {"cellar walls", c.cellar},
+                                                  {"arcade walls", c.arcade},
+                                                  {"gate walls", c.gate},
+                                                  {"moat", c.moat}};
     for (const auto& [name, room] : shells)
         if (LevelMesh faces = c.blocks.faces(name, room); !faces.parts.empty()) level.add_object(std::move(faces));
     level.add_object(c.hall_trim.take("hall windows and mouldings"));

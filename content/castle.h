@@ -19,9 +19,9 @@ struct Castle {
     Level& level;
     Palette use;
     Blocks blocks;
-    int earth, paving, gravel, walls, stone;                 // solids
-    int open_air = 0, hall, treasury, cellar, arcade, gate;  // rooms
-    MeshBuilder hall_trim, treasury_trim, court_trim;        // openings and mouldings, one mesh a room
+    int earth, paving, gravel, walls, stone;                       // solids
+    int open_air = 0, hall, treasury, cellar, arcade, gate, moat;  // rooms
+    MeshBuilder hall_trim, treasury_trim, court_trim;              // openings and mouldings, one mesh a room
 };
 
 inline constexpr float kHallFloor = 0.3f, kHallCeiling = 9.3f;

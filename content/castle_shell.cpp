@@ -193,35 +193,23 @@ void add_hall_window(Castle& c, const Vec3& foot, Facing facing, float width) {
 void build_grounds(Castle& c) {
     Blocks& g = c.blocks;
     g.fill({-62, -7, -62}, {62, 0, 62}, c.earth);
-    // The moat, a ring 11 m wide with a bank beyond it that ends the view.
-    const auto ring = [&](float inner, float outer, float low, float high, int solid) {
-        const auto put = [&](const Vec3& a, const Vec3& b) {
-            if (solid < 0)
-                g.carve(a, b, c.open_air);
-            else
-                g.fill(a, b, solid);
-        };
+    // The moat, a ring 11 m wide whose floor is the water (nobody sees its bed), with a bank beyond it that ends the
+    // view.
+    const auto ring = [&](float inner, float outer, float low, float high, const auto& put) {
         put({-outer, low, -outer}, {outer, high, -inner});
         put({-outer, low, inner}, {outer, high, outer});
         put({-outer, low, -inner}, {-inner, high, inner});
         put({inner, low, -inner}, {outer, high, inner});
     };
-    ring(41, 52, -3.0f, 0.0f, -1);
-    ring(57, 62, 0.0f, 1.6f, c.earth);
-    ring(59.5f, 62, 1.6f, 3.2f, c.earth);
-    MeshBuilder b;
-    b.material(c.use.water);
-    const auto water = [&](float x0, float z0, float x1, float z1) {
-        b.flat_quad({x0, -1.3f, z1}, {x1, -1.3f, z1}, {x1, -1.3f, z0}, {x0, -1.3f, z0});
+    const auto of = [&](int solid) {
+        return [&g, solid](const Vec3& low, const Vec3& high) { g.fill(low, high, solid); };
     };
-    water(-52.02f, -52.02f, 52.02f, -40.98f);
-    water(-52.02f, 40.98f, 52.02f, 52.02f);
-    water(-52.02f, -40.98f, -40.98f, 40.98f);
-    water(40.98f, -40.98f, 52.02f, 40.98f);
-    c.level.add_object(b.take("moat"));
+    ring(41, 52, -1.3f, 0.0f, [&](const Vec3& low, const Vec3& high) { g.carve(low, high, c.moat); });
+    ring(57, 62, 0.0f, 1.6f, of(c.earth));
+    ring(59.5f, 62, 1.6f, 3.2f, of(c.earth));
     // Curtain wall on the inner edge, with a coping.
-    ring(38.0f, 39.2f, 0.0f, 2.6f, c.earth);
-    ring(37.9f, 39.3f, 2.6f, 2.8f, c.stone);
+    ring(38.0f, 39.2f, 0.0f, 2.6f, of(c.earth));
+    ring(37.9f, 39.3f, 2.6f, 2.8f, of(c.stone));
 }
 
 void build_courtyard(Castle& c) {

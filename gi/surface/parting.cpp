@@ -16,14 +16,36 @@ namespace {
 
 constexpr std::size_t kMostCandidates = 32;  // texels beside a place
 
-/// Whether something lies on a point, or so close above it that nobody looks at it but through a slit.
-bool covered(const RayScene& rays, const Vec3& point, const Vec3& normal, const Vec3& above) {
-    return !in_sight(rays, RayScene::offset_origin(point, normal, normal), above);
-}
+/// What lies on surfaces, or so close above them that nobody looks there but through a slit.
+class Covers {
+  public:
+    Covers(const RayScene& rays, const Atlas& atlas) : rays_(rays) {
+        double texels = 0.0, widths = 0.0;
+        for (const PlacedChart& c : atlas.charts) {
+            const double count = double(c.nx) * double(c.ny);
+            texels += count, widths += count * double(texel_width(c));
+        }
+        usual_width_ = texels > 0.0 ? float(widths / texels) : 0.0f;
+    }
+    /// width   of the point's texel; wide ones do not look farther for a cover than usual ones do
+    bool over(const Vec3& point, const Vec3& normal, float width) const {
+        const Vec3 above = point + kSightHeight * std::min(width, usual_width_) * normal;
+        return !in_sight(rays_, RayScene::offset_origin(point, normal, normal), above);
+    }
+    /// Leaves lie on leaves everywhere: nothing of a tree is hidden for good.
+    bool may_hide(std::uint32_t triangle) const {
+        return rays_.scene().materials[rays_.mesh().materials[triangle]].alpha_mode == AlphaMode::Opaque;
+    }
+
+  private:
+    const RayScene& rays_;
+    float usual_width_ = 0.0f;  // metres
+};
 
 class Parter {
   public:
-    Parter(const RayScene& rays, std::span<const TexelPoint> points, float width) : rays_(rays) {
+    Parter(const RayScene& rays, const Covers& covers, std::span<const TexelPoint> points, float width)
+        : rays_(rays), covers_(covers), width_(width), may_hide_(covers.may_hide(points.front().triangle)) {
         for (const TexelPoint& p : points) {
             const Vec3 normal = geometric_normal(rays.mesh(), p.triangle);
             normal_ += normal;
@@ -51,7 +73,7 @@ class Parter {
     }
 
   private:
-    bool under(std::size_t i) const { return covered(rays_, points_[i], normals_[i], above_[i]); }
+    bool under(std::size_t i) const { return may_hide_ && covers_.over(points_[i], normals_[i], width_); }
 
     /// Whether points are under something, or out of sight of each other: from the one in the middle to those that lie
     /// farthest out on four sides, since what parts a texel lies between.
@@ -84,6 +106,9 @@ class Parter {
     }
 
     const RayScene& rays_;
+    const Covers& covers_;
+    float width_;
+    bool may_hide_;
     std::vector<Vec3> points_, normals_, above_;
     Vec3 middle_ = Vec3(0.0f), normal_ = Vec3(0.0f);
 };
@@ -125,13 +150,15 @@ void mark(const RayScene& rays, const Atlas& atlas, std::size_t chart, Texels& t
 }  // namespace
 
 Texels make_parted_texels(const RayScene& rays, const Atlas& atlas) {
-    Texels texels = make_texels(rays.mesh(), atlas, [&rays](std::span<const TexelPoint> points, float width) {
-        return Parter(rays, points, width).groups();
+    const Covers covers(rays, atlas);
+    Texels texels = make_texels(rays.mesh(), atlas, [&](std::span<const TexelPoint> points, float width) {
+        return Parter(rays, covers, points, width).groups();
     });
     texels.walled.assign(texels.count(), 0);
     texels.covered.resize(texels.count());
     tbb::parallel_for(std::uint32_t(0), std::uint32_t(texels.count()), [&](std::uint32_t t) {
-        texels.covered[t] = covered(rays, texels.position[t], texels.normal[t], texels.above(t));
+        texels.covered[t] = covers.may_hide(texels.points_of(t).front().triangle) &&
+                            covers.over(texels.position[t], texels.normal[t], texels.width[t]);
     });
     tbb::parallel_for(std::size_t(0), atlas.charts.size(),
                       [&](std::size_t chart) { mark(rays, atlas, chart, texels); });

@@ -68,10 +68,6 @@ ChartPoints chart_points(const Atlas& atlas, const PlacedChart& c) {
     return result;
 }
 
-float width_of(const PlacedChart& c) {
-    return std::sqrt(std::max(c.step.x, 1e-9f) * std::max(c.step.y, 1e-9f));
-}
-
 /// Points of the same number, in their order.
 std::vector<Points> by_number(const Points& points, const std::vector<int>& numbers) {
     std::vector<Points> parts(std::size_t(*std::max_element(numbers.begin(), numbers.end())) + 1);
@@ -130,6 +126,10 @@ void fill_nearest(const Atlas& atlas, Texels& texels) {
 }
 
 }  // namespace
+
+float texel_width(const PlacedChart& c) {
+    return std::sqrt(std::max(c.step.x, 1e-9f) * std::max(c.step.y, 1e-9f));
+}
 
 Vec3 position(const WorldMesh& mesh, const TexelPoint& point) {
     const std::uint32_t* corner = &mesh.indices[3 * std::size_t(point.triangle)];
@@ -197,7 +197,7 @@ Texels make_texels(const WorldMesh& mesh, const Atlas& atlas, const PointParting
         ChartPoints& chart = charts[id] = chart_points(atlas, atlas.charts[id]);
         for (std::size_t i = 0; part && i < chart.cells.size(); ++i) {
             if (chart.cells[i].empty()) continue;
-            const std::vector<int> numbers = part(chart.cells[i], width_of(atlas.charts[id]));
+            const std::vector<int> numbers = part(chart.cells[i], texel_width(atlas.charts[id]));
             if (std::all_of(numbers.begin(), numbers.end(), [](int n) { return n == 0; })) continue;
             chart.parts.resize(i + 1);
             chart.parts[i] = by_number(chart.cells[i], numbers);
@@ -213,9 +213,9 @@ Texels make_texels(const WorldMesh& mesh, const Atlas& atlas, const PointParting
         for (std::uint32_t i = 0; i < charts[id].cells.size(); ++i) {
             if (i < charts[id].parts.size() && !charts[id].parts[i].empty())
                 for (const Points& part_points : charts[id].parts[i])
-                    add_texel(mesh, atlas, part_points, id, first + i, width_of(c), texels);
+                    add_texel(mesh, atlas, part_points, id, first + i, texel_width(c), texels);
             else if (!charts[id].cells[i].empty())
-                add_texel(mesh, atlas, charts[id].cells[i], id, first + i, width_of(c), texels);
+                add_texel(mesh, atlas, charts[id].cells[i], id, first + i, texel_width(c), texels);
         }
     }
     texels.first_cell.push_back(std::uint32_t(texels.texel_of_cell.size()));

@@ -71,6 +71,9 @@ void for_texels_around(const Atlas& atlas, const Texels& texels, std::uint32_t t
                 use(other);
 }
 
+/// Metres: the side of a square as large as a texel of the chart.
+float texel_width(const PlacedChart& chart);
+
 /// Which of a cell's points, in a texel of this width (metres), make a texel of their own: a number for each point,
 /// from 0 without gaps.
 using PointParting = std::function<std::vector<int>(std::span<const TexelPoint>, float width)>;

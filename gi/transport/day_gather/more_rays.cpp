@@ -9,7 +9,7 @@
 namespace daylit {
 namespace {
 
-constexpr int kRound = 1;  // of a receiver's rays; the first was 0
+constexpr int kRound = 4;  // of random numbers: 0 are the first rays', 1 lamps', 2 suns', 3 probes'
 
 /// Sums over the further rays of one texel.
 struct Sums {

@@ -25,15 +25,19 @@ class ReceiverRays {
             normal_[count_++] = receiver.back ? -n : n;
         }
         turn_.x = random_.next(), turn_.y = random_.next();
+        turns_ = random_.bits();
     }
 
     std::size_t points() const { return count_; }
     const Vec3& position_of(std::size_t point) const { return position_[point]; }
     const Vec3& normal_of(std::size_t point) const { return normal_[point]; }  // unit, on the receiver's side
 
-    /// The point that ray j starts at. Each block of rays goes through all points, shifted from block to block, which
-    /// spreads the points over the directions.
-    std::size_t point_of(int j) const { return (std::size_t(j) + 5 * (std::size_t(j) / count_)) % count_; }
+    /// The point that ray j starts at. Each block of rays goes through all points, shifted by chance from block to
+    /// block: a regular shift and the radical inverse would keep every point to a few bands of azimuths.
+    std::size_t point_of(int j) const {
+        const std::size_t block = std::size_t(j) / count_;
+        return (std::size_t(j) + (mix64(turns_ ^ block) >> 32)) % count_;
+    }
 
     /// Unit; over all rays distributed as the cosine with the point's normal.
     Vec3 direction(int j) const {
@@ -49,6 +53,7 @@ class ReceiverRays {
     Random random_;
     int rays_;
     Vec2 turn_;
+    std::uint64_t turns_ = 0;
     std::size_t count_ = 0;
     std::array<Vec3, kMostPoints> position_, normal_;
 };
