@@ -336,6 +336,7 @@ void build_treasury(Castle& c) {
                    .reveal = c.use.ashlar,
                    .sill = c.use.ashlar};
     add_opening(g, b, oculus);
+    back_inner_seam(b, oculus);
     add_surround(b, oculus, false, 0.2f, 0.06f, c.use.ashlar);
     b.at(wall_frame(oculus)).material(c.use.iron);
     for (float t : {-0.3f, 0.3f}) {
@@ -355,6 +356,7 @@ void build_treasury(Castle& c) {
         .reveal = c.use.ashlar,
         .sill = c.use.ashlar};
     add_opening(g, b, slit);
+    back_inner_seam(b, slit);
     add_surround(b, slit, false, 0.16f, 0.05f, c.use.ashlar);
     add_tracery(b, slit, slit.loops[0], Head::Flat, 1.6f,
                 {.depth = 0.1f,

@@ -79,16 +79,6 @@ void fill_around(MeshBuilder& builder, const Rect& r, const Loop& loop, bool out
     }
 }
 
-// The same a little behind and wider: rest and wall share no vertices along their seam, and through the hair cracks
-// that rasterisers leave there the sky would shine.
-void back_the_seam(MeshBuilder& builder, Rect r, Loop loop, bool outer, bool open_bottom) {
-    constexpr float kBehind = 0.008f, kWider = 0.01f;
-    loop.depth += outer ? kBehind : -kBehind;
-    r.low -= Vec2(kWider, open_bottom ? 0.0f : kWider);
-    r.high += kWider;
-    fill_around(builder, r, loop, outer);
-}
-
 }  // namespace
 
 float head_height(Head head, float width) {
@@ -154,10 +144,8 @@ void add_opening(Blocks& blocks, MeshBuilder& builder, const Opening& o) {
     flush.at(frame);
     flush.material(o.outer_wall);
     fill_around(flush, r, o.loops.front(), true);
-    back_the_seam(flush, r, o.loops.front(), true, o.open_bottom);
     flush.material(o.inner_wall);
     fill_around(flush, r, o.loops.back(), false);
-    back_the_seam(flush, r, o.loops.back(), false, o.open_bottom);
     LevelMesh faces = flush.take("");
     builder.at(Mat4(1.0f));
     for (const auto& [material, g] : faces.parts) {
@@ -179,6 +167,18 @@ void add_opening(Blocks& blocks, MeshBuilder& builder, const Opening& o) {
         builder.material(o.reveal);
         builder.band(near, far, false);
     }
+}
+
+void back_inner_seam(MeshBuilder& builder, const Opening& o) {
+    constexpr float kBehind = 0.008f, kWider = 0.01f;
+    Loop loop = o.loops.back();
+    loop.depth -= kBehind;
+    Rect r = bounds_of(o.loops);
+    r.low -= Vec2(kWider, o.open_bottom ? 0.0f : kWider);
+    r.high += kWider;
+    builder.at(wall_frame(o)).material(o.inner_wall);
+    fill_around(builder, r, loop, false);
+    builder.at(Mat4(1.0f));
 }
 
 void add_surround(MeshBuilder& builder, const Opening& o, bool inside, float width, float rise, int material) {

@@ -40,6 +40,10 @@ Mat4 wall_frame(const Opening& opening);
 /// Cuts the wall and adds reveal and flush rests to the builder.
 void add_opening(Blocks& blocks, MeshBuilder& builder, const Opening& opening);
 
+/// A sheet a little behind the flush rest of the inner face and wider: rest and wall share no vertices along their seam,
+/// and through the hair cracks that rasterisers leave there the sky would shine into a dim room.
+void back_inner_seam(MeshBuilder& builder, const Opening& opening);
+
 /// A moulded frame `width` wide around an outline, standing `rise` out of the outer face (depth 0) or, with inside set,
 /// out of the inner face; ends in the floor or sill at the bottom.
 void add_surround(MeshBuilder& builder, const Opening& opening, bool inside, float width, float rise, int material);

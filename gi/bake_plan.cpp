@@ -10,8 +10,8 @@ namespace daylit {
 namespace {
 
 // Texels: few for scenes of few surfaces (a box needs no more), up to the ceiling for levels. At preview (error 0.10)
-// the ceiling keeps two cores busy for about a minute.
-constexpr double kFewestTexels = 24000, kTexelsPerTriangle = 8, kPreviewTexels = 280000;
+// the ceiling keeps two cores busy for half a minute.
+constexpr double kFewestTexels = 24000, kTexelsPerTriangle = 8, kPreviewTexels = 255000;
 // Rays a texel at preview; noise falls with their root, and filtering over neighbours takes a good part of the rest.
 constexpr double kPreviewRays = 48, kPreviewError = 0.10;
 // On top, for texels whose noise is largest: a share of those.
@@ -26,11 +26,11 @@ constexpr double kDeepNight = -20.0 * kDegree;
 std::size_t texel_budget(const SceneFacts& facts, double error) {
     const double finer = kPreviewError / error;
     const double wanted = std::min(kFewestTexels + kTexelsPerTriangle * double(facts.static_triangles), kPreviewTexels);
-    return std::size_t(wanted * std::clamp(finer, 0.25, 4.0));
+    return std::size_t(wanted * std::clamp(std::pow(finer, 1.08), 0.25, 4.0));
 }
 
 int rays_per_texel(double error) {
-    const double rays = kPreviewRays * std::pow(kPreviewError / error, 1.0);
+    const double rays = kPreviewRays * std::pow(kPreviewError / error, 1.1);
     return std::clamp(int(rays / 16.0 + 0.5) * 16, kFewestRays, kMostRays);
 }
 

@@ -226,9 +226,10 @@ TEST_F(BakedFile, ImpossibleContentsAreRefused) {
     expect_refused([](Baked& b) { b.lightmap->basis.curves[4] = std::nanf(""); });
     expect_refused([](Baked& b) { b.lightmap->basis.sky_level[0] = 0.0f; });
     expect_refused([](Baked& b) { b.lightmap->basis.suns = 2, b.lightmap->basis.curves.resize(20); });
+    constexpr std::uint8_t kTooMany = DayLightmap::kMostPatterns + 1;
     expect_refused([](Baked& b) {
-        b.lightmap->tile_patterns[0] = 25, b.lightmap->scales.resize(25);
-        b.lightmap->patterns.resize(6 * 25), b.lightmap->values.resize(4 * 25);
+        b.lightmap->tile_patterns[0] = kTooMany, b.lightmap->scales.resize(kTooMany);
+        b.lightmap->patterns.resize(6 * kTooMany), b.lightmap->values.resize(4 * kTooMany);
     });
     expect_refused([](Baked& b) { b.lightmap->tile_patterns.push_back(0); });
     expect_refused([](Baked& b) { b.lightmap->values[3] = 2048; });
