@@ -191,10 +191,12 @@ void Renderer::State::build_static(const WorldMesh& mesh) {
 void Renderer::State::build_moving(const WorldMesh& mesh) {
     const Geometry& part = draw.parts[1].emplace(build_draw_mesh(mesh, nullptr, true), true);
     if (!baked_volume) return;
-    std::vector<bool> through;
-    for (const Batch& batch : part.mesh().batches)
-        through.push_back(coverage(draw.material(batch)) == Coverage::Through);
-    draw.volume_objects.set_mesh(part.mesh(), through);
+    std::vector<BatchLook> looks;
+    for (const Batch& batch : part.mesh().batches) {
+        const Material& material = draw.material(batch);
+        looks.push_back({coverage(material) == Coverage::Through, material.metallic > 0.5f});
+    }
+    draw.volume_objects.set_mesh(part.mesh(), looks);
     part.use_light(draw.volume_objects.buffer());
 }
 

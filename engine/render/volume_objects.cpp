@@ -26,7 +26,7 @@ Vec3 unit_normal(const VertexAttributes& vertex) {
 
 }  // namespace
 
-void VolumeObjects::set_mesh(const DrawMesh& mesh, const std::vector<bool>& through) {
+void VolumeObjects::set_mesh(const DrawMesh& mesh, const std::vector<BatchLook>& looks) {
     things_.clear(), parts_.clear();
     std::map<std::uint32_t, std::uint32_t> thing_of_node;
     for (const Cluster& cluster : mesh.clusters) {
@@ -34,11 +34,11 @@ void VolumeObjects::set_mesh(const DrawMesh& mesh, const std::vector<bool>& thro
         if (is_new) things_.emplace_back();
         const auto begin = mesh.indices.begin() + long(cluster.first);
         const auto [least, greatest] = std::minmax_element(begin, begin + long(cluster.count));
-        parts_.push_back({at->second, *least, *greatest + 1, cluster.moves});
+        parts_.push_back({at->second, *least, *greatest + 1, cluster.moves, {}});
     }
     for (std::size_t b = 0; b < mesh.batches.size(); ++b)
         for (std::uint32_t c = 0; c < mesh.batches[b].cluster_count; ++c)
-            parts_[mesh.batches[b].first_cluster + c].through = through[b];
+            parts_[mesh.batches[b].first_cluster + c].look = looks[b];
     measure(mesh);
     buffer_ = make_buffer(std::vector<TwoSided>(mesh.positions.size(), {Rgb(0.0f), Rgb(0.0f)}), GL_DYNAMIC_STORAGE_BIT);
 }
@@ -73,7 +73,8 @@ void VolumeObjects::move(const DrawMesh& mesh) {
 
 VolumeMode VolumeObjects::mode(std::uint32_t cluster) const {
     const Part& part = parts_[cluster];
-    return part.through ? VolumeMode::Vertex : modes_[part.thing];
+    if (part.look.through) return VolumeMode::Vertex;
+    return part.look.metallic && asked_ == VolumeMode::Auto ? VolumeMode::Pixel : modes_[part.thing];
 }
 
 bool VolumeObjects::plan(const DrawMesh& mesh, const Frustum& frustum, const VolumeTree& tree, VolumeMode asked,

@@ -12,11 +12,17 @@
 
 namespace daylit {
 
+/// How a batch of the mesh departs from its thing's mode.
+struct BatchLook {
+    bool through = false;   // drawn in the blended pass: at vertices whatever the mode
+    bool metallic = false;  // mostly gloss, which mirrors light from a direction: at pixels unless a mode is asked for
+};
+
 class VolumeObjects {
   public:
     /// The triangles of a node are one thing.
-    /// through   of each batch: drawn in the blended pass, at vertices whatever the mode
-    void set_mesh(const DrawMesh& mesh, const std::vector<bool>& through);
+    /// looks   of each batch
+    void set_mesh(const DrawMesh& mesh, const std::vector<BatchLook>& looks);
     /// The same triangles after some have moved.
     void move(const DrawMesh& mesh);
 
@@ -38,7 +44,7 @@ class VolumeObjects {
         std::uint32_t thing = 0;
         std::uint32_t first = 0, end = 0;  // its vertices
         std::uint64_t moves = 0;           // as the cluster's when it was last looked at
-        bool through = false;
+        BatchLook look;
         VolumeMode lit = VolumeMode::Auto;  // how it is lit in the buffer; Auto: it is not
     };
     VolumeMode mode(std::uint32_t cluster) const;

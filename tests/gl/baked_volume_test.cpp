@@ -83,8 +83,8 @@ constexpr int kPixels = 12;
 const Vec3 kMiddle(0.3f, 0.45f, 0.2f), kUp(0, 1, 0);
 
 /// Irradiance shown on a square that moves, facing up, all of it in the picture.
-Image square(const Baked& baked, float side, VolumeMode mode) {
-    Scene scene = scene_of({ground(kMiddle, side, side, 0)}, {lambert(Rgb(0.5f))});  // reaches over the picture's edges
+Image square(const Baked& baked, float side, VolumeMode mode, const Material& material = lambert(Rgb(0.5f))) {
+    Scene scene = scene_of({ground(kMiddle, side, side, 0)}, {material});  // reaches over the picture's edges
     scene.nodes[0].dynamic = true;
     Renderer renderer(scene, &baked);
     renderer.set_lighting({{}, {Image(1, 1)}});
@@ -128,6 +128,17 @@ TEST_F(BakedVolumeTest, auto_mode_goes_by_size_gl) {
     // Twice as long as the picture: a quarter of a cell, and a little more. Two triangles have no vertices in between.
     EXPECT_EQ(square(baked, 0.120f, VolumeMode::Auto).pixels, square(baked, 0.120f, VolumeMode::Object).pixels);
     EXPECT_EQ(square(baked, 0.130f, VolumeMode::Auto).pixels, square(baked, 0.130f, VolumeMode::Pixel).pixels);
+}
+
+TEST_F(BakedVolumeTest, auto_mode_takes_metal_at_its_pixels_whatever_its_size_gl) {
+    Baked baked;
+    baked.volume = uneven_volume();
+    Material metal;
+    metal.metallic = 1.0f, metal.roughness = 0.4f;
+    const Image by_itself = square(baked, 0.05f, VolumeMode::Auto, metal);
+    EXPECT_EQ(by_itself.pixels, square(baked, 0.05f, VolumeMode::Pixel, metal).pixels);
+    EXPECT_NE(by_itself.pixels, square(baked, 0.05f, VolumeMode::Object, metal).pixels);
+    EXPECT_EQ(square(baked, 0.05f, VolumeMode::Auto).pixels, square(baked, 0.05f, VolumeMode::Object).pixels);
 }
 
 /// Two squares of four triangles each that move, side by side; the picture shows the place around x alone.
