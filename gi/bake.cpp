@@ -28,8 +28,8 @@ std::string describe(const EncodedLightmap& encoded, const Texels& texels, const
                   "kept as %d keyframes and tiles of %.1f components (%d at most), worst tile's error %.3f",
                   int(encoded.map.basis.hours.size()), encoded.mean_patterns, encoded.map.slots(), encoded.worst_tile);
     std::snprintf(noise, sizeof noise,
-                  "%d rays each and %.0f more on average where it pays, standard error %.3f (95th percentile %.3f, the "
-                  "worst hour, before smoothing), ",
+                  "%d rays each and %.0f more on average where it pays, median standard error %.3f (95th percentile "
+                  "%.3f, the worst hour, before smoothing), ",
                   plan.rays, rows.more_rays, double(quantile(rows.noise, 0.5)), double(quantile(rows.noise, 0.95)));
     return std::to_string(texels.count()) + " texels, " + noise + std::to_string(plan.hours.size()) + " hours in " +
            std::to_string(day.basis.components) + " components (error " + error + "), " + std::to_string(day.bounces) +

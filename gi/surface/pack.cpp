@@ -87,9 +87,13 @@ PackedSize pack_all(std::vector<Block>& blocks) {
     refuse_atlas_size();
 }
 
-std::uint64_t spread_bits(std::uint32_t x) {  // to every third, of 16
+constexpr float kMorton = 65535.0f;  // steps along an axis
+
+/// Its bits, at every third place. Sizes near a float's largest leave no number: 0.
+std::uint64_t spread_bits(float x) {
+    const std::uint32_t whole = x > 0.0f ? std::uint32_t(std::min(x, kMorton)) : 0u;
     std::uint64_t result = 0;
-    for (int bit = 0; bit < 16; ++bit) result |= std::uint64_t(x >> bit & 1u) << (3 * bit);
+    for (int bit = 0; bit < 16; ++bit) result |= std::uint64_t(whole >> bit & 1u) << (3 * bit);
     return result;
 }
 
@@ -98,13 +102,11 @@ std::vector<std::uint32_t> by_place(const std::vector<Block>& blocks) {
     Bounds box;
     for (const Block& b : blocks) box.add(b.place);
     const Vec3 size = box.max - box.min;
-    const float scale = 65535.0f / std::max({size.x, size.y, size.z, 1e-9f});
+    const float scale = kMorton / std::max({size.x, size.y, size.z, 1e-9f});
     std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
     for (std::uint32_t i = 0; i < blocks.size(); ++i) {
         const Vec3 p = scale * (blocks[i].place - box.min);
-        order.emplace_back(spread_bits(std::uint32_t(p.x)) | spread_bits(std::uint32_t(p.y)) << 1 |
-                               spread_bits(std::uint32_t(p.z)) << 2,
-                           i);
+        order.emplace_back(spread_bits(p.x) | spread_bits(p.y) << 1 | spread_bits(p.z) << 2, i);
     }
     std::sort(order.begin(), order.end());
     std::vector<std::uint32_t> result;
