@@ -92,16 +92,15 @@ class Parter {
         return false;
     }
 
-    /// Groups in the open, and points under something, are numbered in the order of their first points; the others'
-    /// points join the first.
+    /// Groups in the open, and points under something, are numbered in the order of their first points. Those inside of
+    /// something solid come last, apart from all others: a ray that slips out of there may meet another room's light.
     std::vector<int> numbered(const std::vector<int>& of, const std::vector<bool>& below) const {
         std::vector<int> number(of.size(), -1), result(of.size(), 0);
         int count = 0;
-        for (std::size_t i = 0; i < of.size(); ++i) {
-            const auto first = std::size_t(of[i]);
-            if (first == i && (below[i] || !buried(rays_, above_[i]))) number[i] = count++;
-            result[i] = std::max(number[first], 0);
-        }
+        for (std::size_t i = 0; i < of.size(); ++i)
+            if (std::size_t(of[i]) == i && (below[i] || !buried(rays_, above_[i]))) number[i] = count++;
+        for (std::size_t i = 0; i < of.size(); ++i)
+            result[i] = number[std::size_t(of[i])] < 0 ? count : number[std::size_t(of[i])];
         return result;
     }
 

@@ -7,8 +7,8 @@
 namespace daylit {
 
 /// Points of a cell are one texel when a chain of them sees one another from a little above the surface; those under
-/// something that lies or hangs there are another. Those inside of something solid stay with the first others: rays
-/// tell them apart. rays   of the mesh that the atlas is of
+/// something that lies or hangs there are another, and so are those inside of something solid.
+/// rays   of the mesh that the atlas is of
 Texels make_parted_texels(const RayScene& rays, const Atlas& atlas);
 
 /// As Texels::at(), but beside walls the texel of the nearest point that is in sight, which may be a neighbour's.

@@ -339,7 +339,7 @@ TEST_F(RendererTest, normal_maps_respond_to_a_tilted_lightmap_gl) {
     veil.alpha_mode = AlphaMode::Blend;
     veil.base_color.a = 0.5f;
     Scene scene = scene_of({std::move(quad), ground(Vec3(0, -1, 0), 1, 1, 1)}, {lambert(Rgb(0.5f)), veil});
-    scene.images.push_back({1, 1, {178, 104, 230, 255}});
+    scene.images.push_back({1, 1, {178, 104, 242, 255}});
     scene.textures.push_back({.image = 0});
     scene.materials[0].normal_texture.texture = 0;
     Baked baked = constant_lightmap();
@@ -352,7 +352,7 @@ TEST_F(RendererTest, normal_maps_respond_to_a_tilted_lightmap_gl) {
     Renderer renderer(scene, &baked);
     const LightScales scales{.clear = 1.0f};
     renderer.set_lighting({{}, {Image(1, 1)}, scales});
-    const Vec3 sampled = glm::normalize(2.0f * Vec3(178, 104, 230) / 255.0f - 1.0f);
+    const Vec3 sampled = glm::normalize(2.0f * Vec3(178, 104, 242) / 255.0f - 1.0f);
     for (const double hour : {6.0, 12.0, 18.0}) {
         FrameSettings frame = frame_of(from_above(1.0f), 8, 8, Layer::Irradiance);
         frame.hour = hour;
