@@ -11,7 +11,7 @@ namespace {
 
 // Texels: few for scenes of few surfaces (a box needs no more), up to the ceiling for levels. At preview (error 0.10)
 // the ceiling keeps two cores busy for half a minute.
-constexpr double kFewestTexels = 24000, kTexelsPerTriangle = 8, kPreviewTexels = 255000;
+constexpr double kFewestTexels = 24000, kTexelsPerTriangle = 8, kPreviewTexels = 240000;
 // Rays a texel at preview; noise falls with their root, and filtering over neighbours takes a good part of the rest.
 constexpr double kPreviewRays = 48, kPreviewError = 0.10;
 // On top, for texels whose noise is largest: a share of those.
