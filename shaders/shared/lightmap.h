@@ -13,7 +13,7 @@ const float kLightmapTiltScale = 4.0f;  // stored tilts times this are lux a rad
 // exact (three numbers a channel instead of four).
 // irradiance      on the surface itself, lux
 // tilt_u, tilt_v  its change as the normal leans towards u, v (rotation gradient, Ward and Heckbert 1992), lux a radian
-// lean            unit: the turned normal in the frame u, v, surface normal
+// lean            the turned normal in the frame u, v, surface normal: unit, or shorter as the mean of several
 // The cosine's share (1 + z) / 2 is that of light from all of the hemisphere alike.
 SHARED_FN vec3 tilted_irradiance(vec3 irradiance, vec3 tilt_u, vec3 tilt_v, vec3 lean) {
     return max(irradiance * (0.5f + 0.5f * lean.z) + lean.x * tilt_u + lean.y * tilt_v, vec3(0.0f));
