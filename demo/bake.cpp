@@ -1,4 +1,5 @@
 // daylit bake: works out the indirect light of a level's day and writes it beside the scene.
+#include <CLI/App.hpp>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>

@@ -1,6 +1,9 @@
 #pragma once
 // One function a subcommand: adds it to the app; its callback does the work and throws Error on failure.
-#include <CLI/App.hpp>
+
+namespace CLI {
+class App;
+}
 
 namespace daylit {
 

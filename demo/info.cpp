@@ -1,6 +1,7 @@
 // daylit info FILE.daylit: every part with its bytes, its error estimate and why it is there; what was skipped and why.
 #include "demo/info.h"
 
+#include <CLI/App.hpp>
 #include <array>
 #include <cstdio>
 

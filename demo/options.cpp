@@ -1,5 +1,6 @@
 #include "demo/options.h"
 
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,5 @@
 #pragma once
 // Options that several subcommands share, and how what is given, baked, in the scene and by default combine.
-#include <CLI/App.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +9,10 @@
 #include "engine/scene/gltf.h"
 #include "engine/scene/pose.h"
 #include "engine/scene/sky.h"
+
+namespace CLI {
+class App;
+}
 
 namespace daylit {
 

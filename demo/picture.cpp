@@ -1,5 +1,6 @@
 #include "demo/picture.h"
 
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <future>

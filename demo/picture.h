@@ -9,6 +9,10 @@
 #include "engine/gl/context.h"
 #include "engine/render/renderer.h"
 
+namespace CLI {
+class App;
+}
+
 namespace daylit {
 
 inline constexpr int kSamplesPerSide = 2;

@@ -1,4 +1,5 @@
 // daylit points: places to measure indirect irradiance at, and the irradiance there by any method.
+#include <CLI/App.hpp>
 #include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -45,8 +46,8 @@ std::vector<Rgb> by_lightmap(const PointsOptions& options, const TracedScene& sc
                              const std::vector<SurfaceSample>& points) {
     if (!scene.loaded.baked) throw UsageError("--method", "lightmap reads a baked file; name it with --light");
     if (!scene.loaded.baked->lightmap) throw Error(options.light, "has no lightmap; daylit info says why");
-    return lightmap_irradiance(*scene.loaded.baked->lightmap, scene.loaded.scene, scene.lighting.scales,
-                               scene.hour, points);
+    return lightmap_irradiance(*scene.loaded.baked->lightmap, scene.loaded.scene, scene.lighting.scales, scene.hour,
+                               points);
 }
 
 std::vector<Rgb> by_volume(const PointsOptions& options, const TracedScene& scene,
@@ -121,7 +122,8 @@ void add_points(CLI::App& app) {
     command->add_option("-o", options->output, "CSV to write: x,y,z,nx,ny,nz, with --method also r,g,b in lux")
         ->required();
     command->add_option("--sample", options->sample,
-                        "surface (by area, static surfaces, not where solids cover one another) | space (free space reachable from the cameras, or from "
+                        "surface (by area, static surfaces, not where solids cover one another) | space (free space "
+                        "reachable from the cameras, or from "
                         "the open sky in a scene without any)");
     command->add_option("--count", options->count, "points to draw")->capture_default_str();
     command->add_option("--seed", options->seed, "of the random numbers")->capture_default_str();

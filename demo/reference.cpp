@@ -1,4 +1,5 @@
 // daylit reference: the picture that shot is judged by, path-traced without bias.
+#include <CLI/App.hpp>
 #include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -43,7 +44,10 @@ PathTraceSettings settings_from(const ReferenceOptions& options) {
     const Layer layer = parse_layer(options.view.show);
     if (layer > Layer::Depth)
         throw Error("--show", "'" + options.view.show + "' is a part of a baked file, which only shot can show");
-    return {.spp = options.spp, .error = options.error, .max_bounces = options.bounces, .seed = options.seed,
+    return {.spp = options.spp,
+            .error = options.error,
+            .max_bounces = options.bounces,
+            .seed = options.seed,
             .layer = layer};
 }
 

@@ -1,4 +1,5 @@
 // daylit report: error against time and memory for each method on a scene, as one page with its numbers and pictures.
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <fstream>

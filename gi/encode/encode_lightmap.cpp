@@ -2,15 +2,13 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "engine/baked/integer_coding.h"
 #include "engine/baked/light_basis_bytes.h"
-#include "engine/base/random.h"
+#include "gi/eigen_decomposition.h"
 #include "gi/encode/judged_basis.h"
 
 namespace daylit {
@@ -24,8 +22,6 @@ constexpr double kDarkestMoment = 0.03;
 // Texels beside an evening lamp are judged by their day: of the evening, only this share counts.
 constexpr double kEveningShare = 1.0 / 64.0;
 constexpr Eigen::Index kCheckedEvery = 3;  // texels of a tile on which its error is measured
-constexpr Eigen::Index kMoreVectors = 8;
-constexpr int kSubspaceSteps = 2;
 
 /// What all tiles share.
 struct Judge {
@@ -143,27 +139,6 @@ Matrix moments_of(const Matrix& rows, const Matrix& weights) {
     return result;
 }
 
-struct Principal {
-    Vector values;   // descending
-    Matrix vectors;  // columns
-};
-
-/// The first eigenvectors of a positive matrix, by subspace iteration with some more than are asked for (Halko,
-/// Martinsson and Tropp 2011, 4.5): all of them would take most of an encoder's time.
-Principal principal_vectors(const Matrix& matrix, Eigen::Index count) {
-    const Eigen::Index size = matrix.rows(), kept = std::min(size, count + kMoreVectors);
-    Matrix basis(size, kept);
-    Random random(1, 0, 0);
-    for (double& b : basis.reshaped()) b = double(random.next()) - 0.5;
-    for (int step = 0; step < kSubspaceSteps && kept < size; ++step) {
-        const Matrix turned = matrix * basis;
-        basis = Eigen::HouseholderQR<Matrix>(turned).householderQ() * Matrix::Identity(size, kept);
-    }
-    if (kept == size) basis.setIdentity();
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(Matrix(basis.transpose() * matrix * basis));
-    return {solver.eigenvalues().reverse(), basis * solver.eigenvectors().rowwise().reverse()};
-}
-
 struct Patterns {
     Matrix values;  // row of TileRows::light x pattern, orthogonal columns
     Matrix light;   // pattern x (channel, component)
@@ -179,14 +154,13 @@ Patterns principal_patterns(const Judge& judge, const TileRows& tile, const Matr
     for (Eigen::Index m = 0; m < seen.size(); ++m) judged.middleCols(7 * m, 7) /= seen[m];
     const Matrix metric = gram_of(judged.transpose()) / double(seen.size());
     // A root by eigenvectors, since few moments leave the metric singular, where Cholesky's breaks down.
-    const Eigen::SelfAdjointEigenSolver<Matrix> of_metric(metric);
-    const Matrix root =
-        of_metric.eigenvectors() * of_metric.eigenvalues().cwiseMax(1e-10 * metric.trace()).cwiseSqrt().asDiagonal();
+    const EigenDecomposition of_metric = eigen_decomposition(metric);
+    const Matrix root = of_metric.vectors * of_metric.values.cwiseMax(1e-10 * metric.trace()).cwiseSqrt().asDiagonal();
     Matrix turned(3 * q, 3 * q);
     for (Eigen::Index a = 0; a < 3; ++a)
         for (Eigen::Index b = 0; b < 3; ++b)
             turned.block(a * q, b * q, q, q) = root.transpose() * gram.block(a * q, b * q, q, q) * root;
-    const Principal principal = principal_vectors(turned, settings.most_patterns);
+    const EigenDecomposition principal = first_eigenvectors(turned, settings.most_patterns);
 
     Patterns result{Matrix(n, settings.most_patterns), Matrix(settings.most_patterns, 3 * q)};
     Vector left = moment_squares(gram, judge.truth);
@@ -202,7 +176,6 @@ Patterns principal_patterns(const Judge& judge, const TileRows& tile, const Matr
         Vector direction(3 * q);
         for (Eigen::Index c = 0; c < 3; ++c)
             direction.segment(c * q, q) = root * principal.vectors.col(count).segment(c * q, q);
-        if (direction.sum() < 0.0) direction = -direction;  // the solver's sign is chance
         result.values.col(count) = tile.light * direction;
         result.light.row(count) = (gram * direction / energy).transpose();
         const Matrix shines = moments_of(result.light.row(count), judge.truth);

@@ -2,10 +2,11 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "gi/eigen_decomposition.h"
 
 namespace daylit {
 namespace {
@@ -201,26 +202,23 @@ JudgedBasis judge_basis(const LightRows& rows, const BasisSettings& settings) {
     const Eigen::VectorXd sizes = component_sizes(rows);
     const Matrix judged = sizes.asDiagonal() * part_weights(rows.light, rows.moments);
     const Matrix metric = judged * judged.transpose() / double(std::max<std::size_t>(rows.moments.size(), 1));
-    const Eigen::SelfAdjointEigenSolver<Matrix> of_metric(metric);
+    const EigenDecomposition of_metric = eigen_decomposition(metric);
     // Directions that no moment asks for are left out.
-    const double floor = 1e-14 * std::max(of_metric.eigenvalues().maxCoeff(), 1e-300);
+    const double floor = 1e-14 * std::max(of_metric.values.maxCoeff(), 1e-300);
     Eigen::Index used = 0;
-    while (used < metric.rows() && of_metric.eigenvalues()[metric.rows() - 1 - used] > floor) ++used;
-    const Matrix axes = of_metric.eigenvectors().rightCols(used);
-    const Eigen::VectorXd lengths = of_metric.eigenvalues().tail(used).cwiseSqrt();
+    while (used < metric.rows() && of_metric.values[used] > floor) ++used;
+    const Matrix axes = of_metric.vectors.leftCols(used);
+    const Eigen::VectorXd lengths = of_metric.values.head(used).cwiseSqrt();
     const Matrix to_metric = sizes.cwiseInverse().asDiagonal() * axes * lengths.asDiagonal();
 
     const Matrix gram = gram_of_unit_rows(rows, to_metric);
-    const Eigen::SelfAdjointEigenSolver<Matrix> of_rows(gram);
-    const Eigen::VectorXd held = of_rows.eigenvalues().reverse().cwiseMax(0.0);
-    Matrix principal = of_rows.eigenvectors().rowwise().reverse();
+    const EigenDecomposition of_rows = eigen_decomposition(gram);
+    const Eigen::VectorXd held = of_rows.values.cwiseMax(0.0);
     Eigen::Index components = 0;
     double left = held.sum();
     const double enough = left * settings.dropped * settings.dropped;
     while (components < used && left > enough) left -= held[components++];
-    for (Eigen::Index r = 0; r < components; ++r)
-        if (principal.col(r).sum() < 0.0) principal.col(r) = -principal.col(r);  // the solver's sign is chance
-    principal.conservativeResize(Eigen::NoChange, components);
+    const Matrix principal = of_rows.vectors.leftCols(components);
 
     result.turn = (to_metric * principal).cast<float>();
     const Matrix turned =

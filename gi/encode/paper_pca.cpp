@@ -2,10 +2,12 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/packing.hpp>
+
+#include "gi/eigen_decomposition.h"
 
 namespace daylit {
 namespace {
@@ -118,8 +120,8 @@ PaperPca paper_pca(const FilmRows& film, std::size_t vectors) {
         covariance += weights.transpose() * all.products * weights / count;
     }
     covariance -= mean * mean.transpose();
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(covariance);
-    const Vector variances = solver.eigenvalues().reverse().cwiseMax(0.0);
+    const EigenDecomposition principal = eigen_decomposition(covariance);
+    const Vector variances = principal.values.cwiseMax(0.0);
 
     PaperPca result;
     result.hours = film.hours, result.pixels = film.at.size();
@@ -129,9 +131,7 @@ PaperPca paper_pca(const FilmRows& film, std::size_t vectors) {
     Eigen::Index kept = 0;
     while (kept < std::min<Eigen::Index>(Eigen::Index(vectors), frames) && variances[kept] > kNothing * variances[0])
         ++kept;
-    Matrix basis = solver.eigenvectors().rowwise().reverse().leftCols(kept);
-    for (Eigen::Index v = 0; v < kept; ++v)
-        if (basis.col(v).sum() < 0.0) basis.col(v) = -basis.col(v);  // the solver's sign is chance
+    const Matrix basis = principal.vectors.leftCols(kept);
 
     // Scores, vector by vector: those of a channel are its components times weights times vectors.
     std::vector<float> scores(std::size_t(3 * kept) * result.pixels);

@@ -2,9 +2,10 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "gi/eigen_decomposition.h"
 
 namespace daylit {
 namespace {
@@ -97,11 +98,8 @@ Reduction reduce(const DayLight& light, const SampleRows& sample, const SampleRo
     const std::size_t columns = light.columns.suns + light.columns.skies;
     if (light.columns.hours.size() < 2 || columns < 2) return every_column(columns);
     const std::vector<double> worth = column_worth(light, exposure);
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(gram(judged(light, sample, worth, exposure)));
     const Eigen::Index most = Eigen::Index(std::min(settings.most, columns));
-    Matrix vectors = solver.eigenvectors().rowwise().reverse().leftCols(most);
-    for (Eigen::Index r = 0; r < most; ++r)
-        if (vectors.col(r).sum() < 0.0) vectors.col(r) *= -1.0;  // the solver's sign is chance
+    const Matrix vectors = eigen_decomposition(gram(judged(light, sample, worth, exposure))).vectors.leftCols(most);
     const std::vector<double> error = errors(judged(light, check, worth, exposure), vectors);
 
     Reduction result;
