@@ -72,27 +72,38 @@ BakedLight::BakedLight(const DayLightmap& lightmap) {
         glClearNamedFramebufferfv(tilted ? tilted_framebuffer_.get() : framebuffer_.get(), GL_COLOR, buffer, kBlack);
     map_ = lightmap;
     map_.values = {}, map_.tilts = {}, map_.exponents = {}, map_.corner_uvs = {};
+    std::vector<std::uint32_t> tiles;
     for (std::uint32_t tile = 0; tile < map_.tile_patterns.size(); ++tile)
-        if (map_.tile_patterns[tile] > 0) tiles_.push_back(tile);
-    const auto plain = [&](std::uint32_t tile) { return !tilted || !map_.tile_tilted[tile]; };
-    plain_tiles_ = std::size_t(std::stable_partition(tiles_.begin(), tiles_.end(), plain) - tiles_.begin());
+        if (map_.tile_patterns[tile] > 0) tiles.push_back(tile);
+    std::stable_partition(tiles.begin(), tiles.end(), [&](std::uint32_t tile) { return plain(tile); });
+    relit_ = RelitTiles(std::move(tiles));
     light_buffer_ = make_buffer(std::vector<Vec4>(map_.tiles() * DayLightmap::kMostPatterns), GL_DYNAMIC_STORAGE_BIT);
-    tile_buffer_ = make_buffer(tiles_.empty() ? std::vector<std::uint32_t>(1) : tiles_, 0);
+    tile_buffer_ = make_buffer(std::vector<std::uint32_t>(map_.tiles()), GL_DYNAMIC_STORAGE_BIT);
 }
 
 bool BakedLight::stale(const LightScales& scales, double hour) const {
     return !lit_ || map_.basis.weights(scales, hour) != weights_;
 }
 
-int BakedLight::set_light(const LightScales& scales, double hour, Programs& programs) {
-    std::vector<Rgb> weights = map_.basis.weights(scales, hour);
-    if (lit_ && weights == weights_) return 0;
+void BakedLight::upload(std::vector<Rgb> weights) {
     weights_ = std::move(weights);
+    lit_ = true;
+    relit_.forget();
     std::vector<Vec4> light;
     for (const Rgb& l : map_.tile_light(weights_)) light.emplace_back(l, 0.0f);
-    for (std::uint32_t tile : tiles_)
+    for (std::size_t tile = 0; tile < map_.tile_patterns.size(); ++tile)
         light[tile * DayLightmap::kMostPatterns].w = float((map_.tile_patterns[tile] + kPerLayer - 1) / kPerLayer);
     glNamedBufferSubData(light_buffer_.get(), 0, GLsizeiptr(light.size() * sizeof(Vec4)), light.data());
+}
+
+int BakedLight::set_light(const LightScales& scales, double hour, const Frustum& seen, Programs& programs) {
+    std::vector<Rgb> weights = map_.basis.weights(scales, hour);
+    if (!lit_ || weights != weights_) upload(std::move(weights));
+    const std::vector<std::uint32_t> tiles = relit_.take_unlit(seen);
+    if (tiles.empty()) return 0;
+    const std::size_t plain_tiles = std::size_t(
+        std::find_if_not(tiles.begin(), tiles.end(), [&](std::uint32_t t) { return plain(t); }) - tiles.begin());
+    glNamedBufferSubData(tile_buffer_.get(), 0, GLsizeiptr(tiles.size() * sizeof tiles[0]), tiles.data());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, light_buffer_.get());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, tile_buffer_.get());
     glBindTextureUnit(0, values_.get());
@@ -107,11 +118,10 @@ int BakedLight::set_light(const LightScales& scales, double hour, Programs& prog
         glUniform1ui(0, GLuint(first));
         glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(last - first));
     };
-    relight(framebuffer_.get(), {}, 0, plain_tiles_);
-    relight(tilted_framebuffer_.get(), {"TILTED"}, plain_tiles_, tiles_.size());
+    relight(framebuffer_.get(), {}, 0, plain_tiles);
+    relight(tilted_framebuffer_.get(), {"TILTED"}, plain_tiles, tiles.size());
     glEnable(GL_DEPTH_TEST);
-    lit_ = true;
-    return int(tiles_.size());
+    return int(tiles.size());
 }
 
 void BakedLight::bind() const {

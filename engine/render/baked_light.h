@@ -6,6 +6,7 @@
 #include "engine/baked/day_lightmap.h"
 #include "engine/gl/owners.h"
 #include "engine/render/programs.h"
+#include "engine/render/relit_tiles.h"
 
 namespace daylit {
 
@@ -15,11 +16,16 @@ class BakedLight {
     /// throws Error when the lightmap is larger than the driver's textures.
     explicit BakedLight(const DayLightmap& lightmap);
 
-    /// True when set_light() would have work to do.
+    /// Where the surfaces stand that each tile lights (tile_bounds()); until it is told, every tile counts as seen.
+    void set_bounds(std::vector<Bounds> tiles) { relit_.set_bounds(std::move(tiles)); }
+
+    /// True when this is not the light of the last set_light().
     bool stale(const LightScales& scales, double hour) const;
-    /// Combines the patterns of all tiles into the irradiance of this light; does nothing when it is the same as
-    /// before. Leaves framebuffer, viewport and program changed. Returns the number of tiles that were worked out.
-    int set_light(const LightScales& scales, double hour, Programs& programs);
+    /// True when tiles in view were not in view since the light changed.
+    bool unlit(const Frustum& seen) const { return relit_.any_unlit(seen); }
+    /// Combines the patterns of the tiles in view into the irradiance of this light, of those only that do not have it
+    /// yet. Leaves framebuffer, viewport and program changed. Returns the number of tiles that were worked out.
+    int set_light(const LightScales& scales, double hour, const Frustum& seen, Programs& programs);
 
     /// RGBA16F, lux, *indirect* irradiance; coordinates as DayLightmap::corner_uvs.
     GLuint texture() const { return irradiance_.get(); }
@@ -29,11 +35,13 @@ class BakedLight {
     void bind() const;
 
   private:
+    bool plain(std::uint32_t tile) const { return map_.tile_tilted.empty() || !map_.tile_tilted[tile]; }  // no tilts
+    void upload(std::vector<Rgb> weights);
+
     DayLightmap map_;           // without texels and coordinates
-    std::vector<Rgb> weights_;  // of irradiance_; empty: not lit yet
+    std::vector<Rgb> weights_;  // of the light that relit_ is about
     bool lit_ = false;
-    std::vector<std::uint32_t> tiles_;  // that hold light, those without tilts first
-    std::size_t plain_tiles_ = 0;       // that have no tilts
+    RelitTiles relit_{{}};  // those without tilts first
     GlTexture values_, irradiance_, tilts_[2];
     GlFramebuffer framebuffer_, tilted_framebuffer_;
     GlBuffer light_buffer_, tile_buffer_;

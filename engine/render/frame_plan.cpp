@@ -12,6 +12,13 @@ PassPlan shadow_plan(bool shown, std::size_t sources, bool stale, const char* wh
     return when(stale, "light, casters or view moved", "as it was: light and casters are still");
 }
 
+PassPlan relight_plan(const FrameFacts& f) {
+    if (!f.baked) return {false, "no baked light"};
+    if (!shows_baked_light(f.show)) return {false, "the layer shows no baked light"};
+    if (f.baked_stale) return {true, "the hour moved"};
+    return when(f.baked_unlit, "surfaces came into view", "the hour is still");
+}
+
 }  // namespace
 
 const char* name(PassKind pass) {
@@ -34,9 +41,7 @@ FramePlan plan_frame(const FrameFacts& f) {
     const bool straight = shows_straight_light(f.show);
     FramePlan plan;
     const auto set = [&](PassKind pass, PassPlan p) { plan[std::size_t(pass)] = std::move(p); };
-    set(PassKind::Relight, !f.baked                     ? PassPlan{false, "no baked light"}
-                           : !shows_baked_light(f.show) ? PassPlan{false, "the layer shows no baked light"}
-                                                        : when(f.baked_stale, "the hour moved", "the hour is still"));
+    set(PassKind::Relight, relight_plan(f));
     set(PassKind::MovingLight, !f.volume ? PassPlan{false, "no irradiance volume"}
                                : !shows_baked_light(f.show)
                                    ? PassPlan{false, "the layer shows no baked light"}

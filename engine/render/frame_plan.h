@@ -29,6 +29,7 @@ const char* name(PassKind pass);
 struct FrameFacts {
     Layer show = Layer::Final;
     bool baked = false, baked_stale = false;
+    bool baked_unlit = false;                  // surfaces came into view that were not since the light changed
     bool volume = false, volume_view = false;  // baked; its samples and cells are asked for
     bool moving_unlit = false;                 // something in view has light from the volume to be looked up
     std::size_t suns = 0, lamps = 0;

@@ -184,6 +184,7 @@ void Renderer::State::build_static(const WorldMesh& mesh) {
         throw Error("lightmap", "it has coordinates for " + std::to_string(lightmap->corner_uvs.size() / 3) +
                                     " triangles, but the scene has " + std::to_string(mesh.triangle_count()) +
                                     " that stand; bake this scene again");
+    if (lightmap) baked_light->set_bounds(tile_bounds(*lightmap, mesh));
     draw.parts[0].reset();
     if (mesh.triangle_count() > 0) draw.parts[0].emplace(build_draw_mesh(mesh, lightmap, false), false);
 }
@@ -275,6 +276,7 @@ FrameFacts Renderer::State::facts(const FrameSettings& frame, const Frustum& see
     f.baked = baked_light || baked_volume;
     f.baked_stale = (baked_light && baked_light->stale(lighting.scales, frame.hour)) ||
                     (baked_volume && baked_volume->stale(lighting.scales, frame.hour));
+    f.baked_unlit = baked_light && baked_light->unlit(seen);
     f.volume = baked_volume.has_value();
     f.volume_view = frame.volume_view;
     if (baked_volume && draw.parts[1] && shows_baked_light(frame.show))
@@ -346,7 +348,7 @@ FrameReport Renderer::draw(const FrameSettings& frame) {
     passes.run(PassKind::Relight, [&] {
         if (s.baked_volume) s.baked_volume->set_light(s.lighting.scales, frame.hour);
         if (!s.baked_light) return DrawCount{};
-        const int tiles = s.baked_light->set_light(s.lighting.scales, frame.hour, s.draw.programs);
+        const int tiles = s.baked_light->set_light(s.lighting.scales, frame.hour, seen, s.draw.programs);
         return DrawCount{1, 2 * tiles, 0, 0};
     });
     passes.run(PassKind::MovingLight, [&] {

@@ -330,6 +330,56 @@ TEST_F(RendererTest, a_constant_lightmap_is_shown_exactly_gl) {
     EXPECT_LT(relative(renderer.read_radiance().at(3, 3).g, 2048.0), 1e-5);
 }
 
+/// A tile each for two quads: at 12:00 clear skies give 1280 and 2560 lux.
+Baked lightmap_of_two_tiles() {
+    Baked baked = constant_lightmap();
+    DayLightmap& map = *baked.lightmap;
+    const int side = DayLightmap::kTileSide;
+    map.width = 2 * side, map.height = side;
+    map.tile_patterns = {2, 2};
+    map.scales = {1, 2, 2, 4};
+    const std::vector<std::int16_t> patterns = map.patterns;
+    map.patterns.insert(map.patterns.end(), patterns.begin(), patterns.end());
+    map.values.assign(map.texels(), 512);
+    map.values.insert(map.values.end(), map.texels(), 1024);
+    map.exponents.assign(map.texels(), 0);
+    map.corner_uvs.clear();
+    for (const float tile : {0.0f, 1.0f}) {
+        const float low = 0.5f * tile + 0.1f, high = 0.5f * tile + 0.4f;
+        for (const Vec2& uv : {Vec2(low, 0), Vec2(high, 0), Vec2(high, 1), Vec2(low, 0), Vec2(high, 1), Vec2(low, 1)})
+            map.corner_uvs.push_back(uv);
+    }
+    return baked;
+}
+
+TEST_F(RendererTest, only_tiles_in_view_are_relit_gl) {
+    const Scene scene =
+        scene_of({ground(Vec3(-6, 0, 0), 2, 2, 0), ground(Vec3(6, 0, 0), 2, 2, 0)}, {lambert(Rgb(0.5f))});
+    const Baked baked = lightmap_of_two_tiles();
+    Renderer renderer(scene, &baked);
+    renderer.set_lighting({{}, {Image(1, 1)}, {.clear = 1.0f}});
+    const View left = look_at({-6, 3, 0.1f}, {-6, 0, 0}, 0.5f), right = look_at({6, 3, 0.1f}, {6, 0, 0}, 0.5f);
+    const auto draw = [&](const View& view, double hour) {
+        FrameSettings frame = frame_of(view, 8, 8, Layer::Lightmap);
+        frame.hour = hour;
+        const FrameReport report = renderer.draw(frame);
+        return pass(report, "relight").triangles;
+    };
+    const auto shown = [&] { return renderer.read_radiance().at(3, 3).g; };
+    EXPECT_EQ(draw(left, 12.0), 2);
+    EXPECT_LT(relative(shown(), 1280.0), 1e-5);
+    EXPECT_EQ(draw(left, 12.0), 0);
+    EXPECT_EQ(draw(right, 12.0), 2);
+    EXPECT_LT(relative(shown(), 2560.0), 1e-5);
+    EXPECT_EQ(draw(left, 12.0), 0);
+    EXPECT_EQ(draw(left, 18.0), 2);
+    EXPECT_EQ(draw(right, 18.0), 2);
+    EXPECT_LT(relative(shown(), 4096.0), 1e-5);
+    FrameSettings whole = frame_of(left, 8, 8, Layer::Lightmap);
+    whole.hour = 12.0, whole.cull = false;
+    EXPECT_EQ(pass(renderer.draw(whole), "relight").triangles, 4);
+}
+
 // All pixels of the normal map lean alike, so what is shown is what the look-up says. The veil below the ground makes
 // frames blend, which must leave nothing that keeps the next hour from being relit.
 TEST_F(RendererTest, normal_maps_respond_to_a_tilted_lightmap_gl) {

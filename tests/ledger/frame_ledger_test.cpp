@@ -76,7 +76,7 @@ TEST_F(FrameLedger, a_moving_sun_leaves_the_lamps_alone_gl) {
 TEST_F(FrameLedger, a_moving_camera_relights_nothing_gl) {
     const Lit lit(true);
     Renderer renderer(lit.scene, &lit.baked);
-    draw(renderer, lit, 12.0);
+    draw(renderer, lit, 12.0);  // sees the whole room
     const FrameReport walked = draw(renderer, lit, 12.0, Layer::Final, 1.3f);
     EXPECT_FALSE(ran(walked, "relight"));
     EXPECT_FALSE(ran(walked, "lamp shadows"));
