@@ -74,6 +74,26 @@ TEST(Reference, UniformSkyOnOpenPlane) {
     expect_relative(e, kPi * glm::dvec3(sky), 0.2 * kPercent);
 }
 
+TEST(Reference, DoubledFacesDoNotShadowEachOther) {
+    // Modellers leave walls that lie in each other, cut differently and turned either way. Where they tilt, rounding
+    // puts each a little above the other in places; what leaves one must not be caught by the other.
+    const Vec3 normal = glm::normalize(Vec3(0.3f, 1.0f, -0.2f));
+    const Vec3 u = 10.0f * glm::normalize(glm::cross(normal, Vec3(1, 0, 0))), v = glm::cross(normal, u);
+    const Vec3 corner(400.1f, 3.3f, -250.7f);  // far off, where floats are coarse
+    TestScene test;
+    const Rgb albedo(0.5f), sky(1000.0f), sun(30000.0f);
+    const std::uint32_t wall = test.add(lambert(albedo));
+    test.quad(wall, corner, u, v);
+    test.quad(wall, corner + v, -v, u);
+    for (int k = 0; k < 4; ++k) test.quad(wall, corner + 0.25f * float(k) * u, v, 0.25f * u);
+    Lighting light = one_sun(Vec3(0, 1, 0.1f), sun);
+    light.sky = constant_sky(sky).sky;
+    const View view = look_at(corner + 0.5f * (u + v) + 4.0f * normal, corner + 0.45f * (u + v), 0.8f);
+    const PathTraceImage picture = path_trace(test.trace(), light, {}, view, 32, 32, {.spp = 64});
+    const float cosine = glm::dot(light.suns[0].direction, normal);
+    expect_relative(mean(picture.radiance), albedo * (sun * cosine / float(kPi) + sky), 0.1 * kPercent);
+}
+
 TEST(Reference, SkyWithBrightSpot) {
     // A map that is dark but for a few texels, against its own quadrature: light sampling must find them.
     Image map(64, 32, Rgb(1.0f));
