@@ -181,7 +181,8 @@ void add_hall_window(Castle& c, const Vec3& foot, Facing facing, float width) {
                  .transoms = 3,
                  .bar = 0.06f,
                  .bar_material = c.use.ashlar,
-                 .sheet_material = c.use.lattice});
+                 .sheet_material = c.use.lattice,
+                 .sheet_thickness = 0.004f});
     b.at(wall_frame(o)).material(c.use.ashlar);
     b.bevel_box({-0.5f * width - 0.35f, -0.16f, -0.05f}, {0.5f * width + 0.35f, -0.005f, 0.16f}, 0.03f);
     b.bevel_box({-0.5f * wide - 0.2f, -0.5f, -1.28f}, {0.5f * wide + 0.2f, -0.355f, -1.1f}, 0.03f);

@@ -262,7 +262,11 @@ void add_tracery(MeshBuilder& builder, const Opening& o, const Loop& loop, Head 
     }
     if (t.sheet_material >= 0) {
         builder.material(t.sheet_material);
-        builder.flat_polygon(at_depth(loop.points, t.depth));
+        builder.flat_polygon(at_depth(loop.points, t.depth - 0.5f * t.sheet_thickness));
+        if (t.sheet_thickness > 0.0f) {
+            const std::vector<Vec3> inner = at_depth(loop.points, t.depth + 0.5f * t.sheet_thickness);
+            builder.flat_polygon(std::vector<Vec3>(inner.rbegin(), inner.rend()));
+        }
     }
     builder.at(Mat4(1.0f));
 }

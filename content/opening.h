@@ -40,15 +40,16 @@ Mat4 wall_frame(const Opening& opening);
 /// Cuts the wall and adds reveal and flush rests to the builder.
 void add_opening(Blocks& blocks, MeshBuilder& builder, const Opening& opening);
 
-/// A sheet a little behind the flush rest of the inner face and wider: rest and wall share no vertices along their seam,
-/// and through the hair cracks that rasterisers leave there the sky would shine into a dim room.
+/// A sheet a little behind the flush rest of the inner face and wider: rest and wall share no vertices along their
+/// seam, and through the hair cracks that rasterisers leave there the sky would shine into a dim room.
 void back_inner_seam(MeshBuilder& builder, const Opening& opening);
 
 /// A moulded frame `width` wide around an outline, standing `rise` out of the outer face (depth 0) or, with inside set,
 /// out of the inner face; ends in the floor or sill at the bottom.
 void add_surround(MeshBuilder& builder, const Opening& opening, bool inside, float width, float rise, int material);
 
-/// Mullions, transoms and head tracery of round bars in the plane at `depth`, and a sheet filling it.
+/// Mullions, transoms and head tracery of round bars in the plane at `depth`, and a sheet filling it: one, or where it
+/// has a thickness, a face to either side, so that each has the light of its own side.
 struct Tracery {
     float depth = 0.3f;
     int lights = 2;  // panes side by side
@@ -57,6 +58,7 @@ struct Tracery {
     int sides = 6;      // of a bar's section
     int bar_material = 0;
     int sheet_material = -1;  // lattice or glass; -1: none
+    float sheet_thickness = 0.0f;
 };
 void add_tracery(MeshBuilder& builder, const Opening& opening, const Loop& loop, Head head, float spring,
                  const Tracery& tracery);

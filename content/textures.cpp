@@ -134,7 +134,7 @@ std::vector<int> add_patterns(Level& level, const std::vector<Pattern>& patterns
         s.roughness = p.roughness_map ? 1.0f : made[i].middle.roughness;
         s.metallic = p.roughness_map ? 1.0f : made[i].middle.metallic;
         s.alpha_mode = p.alpha_mode;
-        s.double_sided = p.alpha_mode != AlphaMode::Opaque;
+        s.double_sided = p.double_sided;
         surfaces.push_back(level.add_surface(s));
     }
     return surfaces;
@@ -489,7 +489,8 @@ Pattern leaves() {
               .height = 256,
               .texel = {},
               .normal_map = false,
-              .alpha_mode = AlphaMode::Mask};
+              .alpha_mode = AlphaMode::Mask,
+              .double_sided = true};
     p.texel = [](Vec2 uv) {
         Texel t;
         t.alpha = 0.0f;

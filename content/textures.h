@@ -25,6 +25,7 @@ struct Pattern {
     bool normal_map = true;
     bool roughness_map = false;
     AlphaMode alpha_mode = AlphaMode::Opaque;
+    bool double_sided = false;
 };
 
 /// Turns patterns into pictures and surfaces, in parallel; surfaces come in the order of the patterns.

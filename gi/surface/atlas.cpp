@@ -13,7 +13,8 @@ namespace {
 constexpr int kMaxChartSide = 2048;
 
 // Light varies along a surface the faster the nearer the surroundings are: its relative gradient is bounded by the mean
-// inverse distance of what is seen (Ward and Heckbert 1992), and along an axis it goes with how fast that changes.
+// inverse distance of what is seen (Ward and Heckbert 1992), and along an axis it goes with how fast that changes. And
+// the faster the surface turns: by up to its own size a radian.
 // Steps go with the fourth root of that rate. Least error relative to local brightness would ask for the square root,
 // but that starves open ground, where most light is and whose shadows the mean distance does not know.
 constexpr float kPower = 0.25f;
@@ -57,12 +58,29 @@ struct AroundSum {
     }
 };
 
-Vec2 step_factor(const Chart& chart, const AroundSum& own, float mean_rate) {
+/// How fast the shading normal turns along a direction, radians a metre, averaged over a chart's area.
+float turning(const WorldMesh& mesh, const Chart& chart, std::span<const Facet> facet, const Vec3& direction) {
+    double area = 0.0, sum = 0.0;
+    for (const std::uint32_t t : chart.triangles) {
+        const std::uint32_t* corner = &mesh.indices[3 * std::size_t(t)];
+        Vec3 change(0.0f);
+        for (int k = 0; k < 3; ++k) {
+            // The gradient of a corner's weight: across the edge that faces it, over the height above that edge.
+            const Vec3 edge = mesh.positions[corner[(k + 2) % 3]] - mesh.positions[corner[(k + 1) % 3]];
+            change += mesh.normals[corner[k]] * glm::dot(glm::cross(facet[t].normal, edge), direction);
+        }
+        sum += 0.5 * double(glm::length(change));  // over twice the area, times the area
+        area += facet[t].area;
+    }
+    return area > 0.0 ? float(sum / area) : 0.0f;
+}
+
+Vec2 step_factor(const Chart& chart, const AroundSum& own, const Vec2& turning, float mean_rate) {
     if (own.area == 0.0) return Vec2(kHiddenStep);
     if (mean_rate == 0.0f) return Vec2(1.0f);
     constexpr float kLeast = 1e-6f;
-    const float u = std::max(own.rate(chart.axis_u) / mean_rate, kLeast);
-    const float v = std::max(own.rate(chart.axis_v) / mean_rate, kLeast);
+    const float u = std::max((own.rate(chart.axis_u) + turning.x) / mean_rate, kLeast);
+    const float v = std::max((own.rate(chart.axis_v) + turning.y) / mean_rate, kLeast);
     const float size = std::clamp(std::pow(u * v, -0.5f * kPower), 1.0f / kWidestRange, kWidestRange);
     const float shape = std::sqrt(std::clamp(v / u, 1.0f / kLongest, kLongest));
     return size * Vec2(shape, 1.0f / shape);
@@ -79,7 +97,8 @@ std::vector<Share> share_out(const WorldMesh& mesh, std::vector<Chart>&& charts,
         if (!around.empty()) {
             AroundSum own;
             for (std::uint32_t t : chart.triangles) own.add(facet[t], around[t]);
-            factor *= step_factor(chart, own, mean_rate);
+            const Vec2 turns(turning(mesh, chart, facet, chart.axis_u), turning(mesh, chart, facet, chart.axis_v));
+            factor *= step_factor(chart, own, turns, mean_rate);
         }
         shares.push_back({std::move(chart), factor});
     }
