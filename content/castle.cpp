@@ -67,7 +67,8 @@ Palette make_palette(Level& level) {
     Surface glass = plain("glass", Rgb(0.97f, 0.985f, 0.98f), 0.0f);
     glass.transmission = 1.0f;
     p.glass = level.add_surface(glass);
-    p.pane = clear(level, "tinted pane", {0.45f, 0.62f, 0.5f}, 0.16f);
+    p.pane = clear(level, "tinted pane", {0.45f, 0.62f, 0.5f}, 0.12f);  // either face of a pane
+    level.surfaces[std::size_t(p.pane)].double_sided = false;
     p.gauze = clear(level, "gauze", {0.7f, 0.66f, 0.56f}, 0.45f);
     p.silver = level.add_surface(plain("pewter", {0.62f, 0.61f, 0.58f}, 0.36f, 1.0f));
     p.gold = level.add_surface(plain("gilding", {0.82f, 0.62f, 0.27f}, 0.34f, 1.0f));

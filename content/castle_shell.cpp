@@ -365,7 +365,8 @@ void build_treasury(Castle& c) {
                  .transoms = 4,
                  .bar = 0.015f,
                  .bar_material = c.use.iron,
-                 .sheet_material = c.use.pane});
+                 .sheet_material = c.use.pane,
+                 .sheet_thickness = 0.004f});
 }
 
 void build_cellar(Castle& c) {
