@@ -14,8 +14,10 @@ constexpr std::size_t kMaxScenePixels = std::size_t(1) << 28;
 std::vector<TextureRef*> texture_refs(Scene& scene) {
     std::vector<TextureRef*> refs;
     for (Material& material : scene.materials)
-        for (TextureRef* ref : {&material.base_color_texture, &material.metallic_roughness_texture,
-                                &material.normal_texture, &material.occlusion_texture, &material.emission_texture})
+        for (TextureRef* ref :
+             {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
+              &material.occlusion_texture, &material.emission_texture, &material.specular_texture,
+              &material.specular_color_texture, &material.transmission_texture})
             if (ref->texture >= 0) refs.push_back(ref);
     return refs;
 }
@@ -101,8 +103,7 @@ void note_unused_images(File& file, const std::vector<int>& used) {
             file.note(image_name(file, i), "is used by no material; not read");
 }
 
-/// Glossiness in alpha becomes roughness in green; of the coloured part the mean goes into the factor, since a material
-/// here has one specular colour.
+/// Glossiness in alpha becomes roughness in green, in a texture of its own: the colours stay the specular colour's.
 void convert_glossy(Scene& scene, const GlossyMaterial& glossy) {
     Material& material = scene.materials[glossy.material];
     TextureRef& ref = material.metallic_roughness_texture;
@@ -112,15 +113,12 @@ void convert_glossy(Scene& scene, const GlossyMaterial& glossy) {
     }
     Texture texture = scene.textures[std::size_t(ref.texture)];
     Image8 image = scene.images[std::size_t(texture.image)];
-    glm::dvec3 sum(0.0);
     for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
         std::uint8_t* texel = &image.rgba[i];
-        for (int c = 0; c < 3; ++c) sum[c] += decode_srgb(float(texel[c]) / 255.0f);
         texel[1] = std::uint8_t(255.5f - glossy.glossiness * float(texel[3]));
         texel[0] = texel[2] = 0;
         texel[3] = 255;
     }
-    material.specular_color *= Rgb(sum / double(image.rgba.size() / 4));
     scene.image_names.push_back("roughness of " + scene.image_names[std::size_t(texture.image)]);
     texture.image = int(scene.images.size());
     scene.images.push_back(std::move(image));

@@ -129,9 +129,9 @@ void read_specular(File& file, const tinygltf::Material& in, Material& out, cons
     out.specular = clamped(file, specular.number("specularFactor", 1.0f), 0.0f, 1.0f, at + " specularFactor");
     out.specular_color =
         clamped<3>(file, specular.numbers<3>("specularColorFactor", Rgb(1.0f)), kAny, at + " specularColorFactor");
-    for (const char* key : {"specularTexture", "specularColorTexture"})
-        if (specular.has(key))
-            file.note(at, std::string("has a ") + key + ", which is ignored; its factor alone counts");
+    out.specular_texture = texture_ref(file, specular.texture("specularTexture"), at + " specularTexture");
+    out.specular_color_texture =
+        texture_ref(file, specular.texture("specularColorTexture"), at + " specularColorTexture");
 }
 
 void read_transmission(File& file, const tinygltf::Material& in, Material& out, const std::string& at) {
@@ -139,8 +139,8 @@ void read_transmission(File& file, const tinygltf::Material& in, Material& out, 
     if (transmission) {
         out.transmission =
             clamped(file, transmission.number("transmissionFactor", 0.0f), 0.0f, 1.0f, at + " transmissionFactor");
-        if (transmission.has("transmissionTexture"))
-            file.note(at, "has a transmissionTexture, which is ignored; its factor alone counts");
+        out.transmission_texture =
+            texture_ref(file, transmission.texture("transmissionTexture"), at + " transmissionTexture");
     }
     const Extension ior(file, in.extensions, "KHR_materials_ior", at);
     if (!ior) return;
@@ -168,9 +168,10 @@ void read_specular_glossiness(File& file, const tinygltf::Material& in, std::siz
     if (textured) file.glossy.push_back({index, glossiness});
     out.ior = 1.5f;
     out.specular = 1.0f;
+    out.specular_texture = TextureRef();
     out.specular_color =
         clamped<3>(file, gloss.numbers<3>("specularFactor", Rgb(1.0f)), 1.0f, at + " specularFactor") / 0.04f;
-    if (textured) file.note(at, "has a specularGlossinessTexture; its glossiness is kept, its colour averaged");
+    out.specular_color_texture = out.metallic_roughness_texture;
 }
 
 void read_emission(File& file, const tinygltf::Material& in, Material& out, const std::string& at) {
@@ -191,6 +192,7 @@ void make_lambert(Material& material) {
     material.specular = 0.0f;
     material.transmission = 0.0f;
     material.metallic_roughness_texture = material.normal_texture = material.occlusion_texture = TextureRef();
+    material.specular_texture = material.specular_color_texture = material.transmission_texture = TextureRef();
 }
 
 Material read_material(File& file, const tinygltf::Material& in, std::size_t index) {

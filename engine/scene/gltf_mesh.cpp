@@ -278,8 +278,7 @@ void note_ignored(const Source& source, const Material& material, const Primitiv
         if (!known && !name.starts_with("_")) source.file.note(source.place, "attribute " + name + " is ignored");
         check_accessor(source.file, accessor, source.place + " " + name);
     }
-    for (const TextureRef* ref : {&material.base_color_texture, &material.metallic_roughness_texture,
-                                  &material.normal_texture, &material.emission_texture})
+    for (const TextureRef* ref : material.textures())
         if (ref->texture >= 0 && std::size_t(ref->uv_set) >= out.uvs.size()) {
             source.file.note(source.place, "has no TEXCOORD_" + std::to_string(ref->uv_set) +
                                                ", which its material's textures need; (0, 0) is taken");

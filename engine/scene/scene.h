@@ -56,12 +56,21 @@ struct Material {
     Lit lit = Lit::Always;         // of emission
     AlphaMode alpha_mode = AlphaMode::Opaque;
     float alpha_cutoff = 0.5f;
-    bool double_sided = false;  // concerns only what the camera sees
-    bool unlit = false;         // KHR_materials_unlit: shows base colour as radiance in cd/m^2, reflects nothing
-    float ior = 1.5f;           // KHR_materials_ior
-    float transmission = 0.0f;  // KHR_materials_transmission: > 0 is smooth glass, tinted by base colour
-    float specular = 1.0f;      // KHR_materials_specular, strength
+    bool double_sided = false;        // concerns only what the camera sees
+    bool unlit = false;               // KHR_materials_unlit: shows base colour as radiance in cd/m^2, reflects nothing
+    float ior = 1.5f;                 // KHR_materials_ior
+    float transmission = 0.0f;        // KHR_materials_transmission: share that is smooth glass, tinted by base colour
+    TextureRef transmission_texture;  // R, linear, multiplies transmission
+    float specular = 1.0f;            // KHR_materials_specular, strength
+    TextureRef specular_texture;      // A, linear, multiplies specular
     Rgb specular_color = Rgb(1.0f);
+    TextureRef specular_color_texture;  // sRGB-coded RGB, multiplies specular_color
+
+    /// Those that decide how it looks, so all but occlusion.
+    std::array<const TextureRef*, 7> textures() const {
+        return {&base_color_texture, &metallic_roughness_texture, &normal_texture,      &emission_texture,
+                &specular_texture,   &specular_color_texture,     &transmission_texture};
+    }
 };
 
 /// A morph target's displacements; each vector is empty or as long as the primitive's positions.

@@ -14,23 +14,30 @@ struct Gloss {
     bool mirror = false;
 };
 
-/// Of a material's factors, or of the smoothest texel where a texture sets roughness or metalness.
+/// The least and the greatest of each channel of a texture, as coded; 1 without one.
+std::array<Rgba, 2> texel_range(const Scene& scene, const TextureRef& ref) {
+    if (ref.texture < 0) return {Rgba(1.0f), Rgba(1.0f)};
+    const Image8& image = scene.images[std::size_t(scene.textures[std::size_t(ref.texture)].image)];
+    std::array<std::uint8_t, 4> least{255, 255, 255, 255}, most{};
+    for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+        least[i % 4] = std::min(least[i % 4], image.rgba[i]);
+        most[i % 4] = std::max(most[i % 4], image.rgba[i]);
+    }
+    return {Rgba(least[0], least[1], least[2], least[3]) / 255.0f, Rgba(most[0], most[1], most[2], most[3]) / 255.0f};
+}
+
+/// Of a material's factors, or of the glossiest texel where textures vary them.
 Gloss material_gloss(const Scene& scene, const Material& material) {
     if (material.unlit) return {};
     Material factors = material;
-    const int texture = material.metallic_roughness_texture.texture;
-    if (texture >= 0) {
-        const Image8& image = scene.images[std::size_t(scene.textures[std::size_t(texture)].image)];
-        std::uint8_t smoothest = 255, most_metallic = 0;
-        for (std::size_t i = 0; i + 3 < image.rgba.size(); i += 4) {
-            smoothest = std::min(smoothest, image.rgba[i + 1]);
-            most_metallic = std::max(most_metallic, image.rgba[i + 2]);
-        }
-        factors.roughness *= float(smoothest) / 255.0f;
-        factors.metallic *= float(most_metallic) / 255.0f;
-        factors.metallic_roughness_texture = TextureRef();
-    }
-    factors.base_color_texture = TextureRef();
+    const auto [smoothest, most_metallic] = texel_range(scene, material.metallic_roughness_texture);
+    factors.roughness *= smoothest.g;
+    factors.metallic *= most_metallic.b;
+    factors.specular *= texel_range(scene, material.specular_texture)[1].a;
+    const Rgba brightest = texel_range(scene, material.specular_color_texture)[1];
+    for (int c = 0; c < 3; ++c) factors.specular_color[c] *= decode_srgb(brightest[c]);
+    factors.base_color_texture = factors.metallic_roughness_texture = factors.specular_texture =
+        factors.specular_color_texture = TextureRef();
     const glsl::Brdf brdf = surface_brdf(scene, factors, {}, Rgba(1.0f));
     const float reflectance = std::max({brdf.specular.x, brdf.specular.y, brdf.specular.z});
     Gloss gloss;

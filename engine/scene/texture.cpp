@@ -80,9 +80,11 @@ float after_alpha_mode(const Material& material, float alpha) {
 }
 
 /// Normal reflectance of a dielectric coat (KHR_materials_ior, KHR_materials_specular), at most 1.
-Rgb dielectric_f0(const Material& material) {
+Rgb dielectric_f0(const Scene& scene, const Material& material, const std::array<Vec2, 2>& uvs) {
     const float ratio = (material.ior - 1.0f) / (material.ior + 1.0f);
-    return glm::min(ratio * ratio * material.specular_color, Rgb(1.0f)) * material.specular;
+    const Rgb color = material.specular_color * Rgb(sample_texture_srgb(scene, material.specular_color_texture, uvs));
+    const float strength = material.specular * sample<alpha_alone>(scene, material.specular_texture, uvs);
+    return glm::min(ratio * ratio * color, Rgb(1.0f)) * strength;
 }
 
 }  // namespace
@@ -112,13 +114,17 @@ Rgb emission(const Scene& scene, const Material& material, const std::array<Vec2
     return material.emission * Rgb(sample_texture_srgb(scene, material.emission_texture, uvs));
 }
 
+float transmission(const Scene& scene, const Material& material, const std::array<Vec2, 2>& uvs) {
+    return material.transmission * sample_texture(scene, material.transmission_texture, uvs).r;
+}
+
 glsl::Brdf surface_brdf(const Scene& scene, const Material& material, const std::array<Vec2, 2>& uvs,
                         const Rgba& vertex_color) {
     if (material.unlit) return {Rgb(0.0f), Rgb(0.0f), 0.0f};
     const Rgba mr = sample_texture(scene, material.metallic_roughness_texture, uvs);
     const Rgb color = Rgb(base_color(scene, material, uvs, vertex_color));
     return glsl::brdf_from_metallic_roughness(color, material.metallic * mr.b, material.roughness * mr.g,
-                                              dielectric_f0(material));
+                                              dielectric_f0(scene, material, uvs));
 }
 
 Vec3 shading_normal(const Scene& scene, const Material& material, const std::array<Vec2, 2>& uvs, const Vec3& normal,

@@ -20,7 +20,11 @@ float coverage(const Scene& scene, const Material& material, const std::array<Ve
 /// Emitted radiance, cd/m^2, of both sides.
 Rgb emission(const Scene& scene, const Material& material, const std::array<Vec2, 2>& uvs);
 
-/// The reflecting part of a material at a point, through the one mapping of shaders/shared/brdf.h.
+/// Share that is smooth glass; the rest is opaque.
+float transmission(const Scene& scene, const Material& material, const std::array<Vec2, 2>& uvs);
+
+/// The reflecting part of a material at a point, that of its opaque rest where some is glass, through the one mapping
+/// of shaders/shared/brdf.h.
 glsl::Brdf surface_brdf(const Scene& scene, const Material& material, const std::array<Vec2, 2>& uvs,
                         const Rgba& vertex_color);
 

@@ -202,6 +202,84 @@ TEST(GltfScene, a_glossiness_texture_becomes_roughness) {
     EXPECT_NEAR(brdf.exponent, 2.0f / std::pow(0.25f, 4.0f) - 2.0f, 12.0f);  // roughness 64/255 for 1/4
 }
 
+TEST(GltfScene, a_glossiness_texture_colours_the_coat_texel_by_texel) {
+    const test::TemporaryFolder folder;
+    Image picture(2, 1, Rgb(1, 0.25f, 0));
+    picture.at(1, 0) = Rgb(0, 1, 0.5f);
+    write_image(folder / "p.png", picture);
+    GltfBuilder builder = with_material({{"extensions",
+                                          {{"KHR_materials_pbrSpecularGlossiness",
+                                            {{"diffuseFactor", {1, 1, 1, 1}},
+                                             {"specularFactor", {0.5, 0.5, 0.8}},
+                                             {"specularGlossinessTexture", {{"index", 0}}}}}}}});
+    builder.json["textures"] = {{{"source", 0}}};
+    builder.json["images"] = {{{"uri", "p.png"}}};
+    const Scene scene = load_scene(builder.save_gltf(folder / "s.gltf"));
+    EXPECT_FALSE(noted(scene, "averaged"));
+    const auto brdf = [&](float u) {
+        return surface_brdf(scene, scene.materials[0], {Vec2(u, 0.5f), Vec2(0)}, Rgba(1));
+    };
+    const glsl::Brdf left = brdf(0.25f), right = brdf(0.75f);
+    for (int c = 0; c < 3; ++c) {  // within the steps of 8 bits
+        EXPECT_NEAR(left.specular[c], Rgb(0.5f, 0.125f, 0)[c], 3e-3f) << c;
+        EXPECT_NEAR(right.specular[c], Rgb(0, 0.5f, 0.4f)[c], 3e-3f) << c;
+        EXPECT_NEAR(left.diffuse[c], 0.5f, 1e-5f) << c;  // 1 - max(specular)
+    }
+}
+
+/// A triangle whose material has three textures of KHR_materials_specular and KHR_materials_transmission.
+GltfBuilder with_coat_textures(const test::TemporaryFolder& folder) {
+    const auto transformed = [](int texture, double u, int uv_set) {
+        return Json{{"index", texture},
+                    {"texCoord", uv_set},
+                    {"extensions", {{"KHR_texture_transform", {{"offset", {u, 0}}, {"scale", {2, 1}}}}}}};
+    };
+    GltfBuilder builder =
+        with_material({{"extensions",
+                        {{"KHR_materials_specular",
+                          {{"specularFactor", 0.5},
+                           {"specularTexture", transformed(0, 0.25, 1)},
+                           {"specularColorTexture", transformed(1, 0.5, 0)}}},
+                         {"KHR_materials_transmission",
+                          {{"transmissionFactor", 0.75}, {"transmissionTexture", transformed(2, 0.75, 1)}}}}}});
+    builder.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = builder.floats("VEC2", {0, 0, 1, 0, 0, 1});
+    for (const int i : {0, 1, 2}) {
+        const std::string name = std::to_string(i) + ".png";
+        write_image(folder / name, Image(1, 1, Rgb(float(i) / 2)));
+        builder.json["textures"].push_back({{"source", i}});
+        builder.json["images"].push_back({{"uri", name}});
+    }
+    return builder;
+}
+
+TEST(GltfScene, specular_and_transmission_textures) {
+    const test::TemporaryFolder folder;
+    const Scene scene = load_scene(with_coat_textures(folder).save_gltf(folder / "s.gltf"));
+    const Material& material = scene.materials[0];
+    const auto expect = [&](const TextureRef& ref, int image, float u, int uv_set) {
+        ASSERT_GE(ref.texture, 0);
+        EXPECT_EQ(scene.textures[std::size_t(ref.texture)].image, image);
+        EXPECT_EQ(ref.uv_set, uv_set);
+        EXPECT_EQ(ref.transform, (std::array<float, 6>{2, 0, u, 0, 1, 0}));
+    };
+    ASSERT_EQ(scene.images.size(), 3u);
+    expect(material.specular_texture, 0, 0.25f, 1);
+    expect(material.specular_color_texture, 1, 0.5f, 0);
+    expect(material.transmission_texture, 2, 0.75f, 1);
+    EXPECT_EQ(material.specular, 0.5f);
+    EXPECT_EQ(material.transmission, 0.75f);
+    EXPECT_FALSE(noted(scene, "ignored"));
+    EXPECT_TRUE(noted(scene, "has no TEXCOORD_1"));
+}
+
+TEST(GltfScene, lambert_reads_no_specular_or_transmission_texture) {
+    const test::TemporaryFolder folder;
+    const Scene scene = load_scene(with_coat_textures(folder).save_gltf(folder / "s.gltf"), {.lambert = true});
+    for (const TextureRef* ref : scene.materials[0].textures()) EXPECT_EQ(ref->texture, -1);
+    EXPECT_TRUE(scene.images.empty());
+    EXPECT_TRUE(noted(scene, "used by no material"));
+}
+
 TEST(GltfScene, lambert_leaves_colour_and_emission) {
     const GltfBuilder builder =
         with_material({{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}, {"roughnessFactor", 0.1}}},

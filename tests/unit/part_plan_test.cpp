@@ -71,6 +71,21 @@ TEST(PartPlan, a_texture_can_be_what_makes_it_glossy) {
     EXPECT_NEAR(scene_facts(scene).static_exponent, 2.0f / 0.0016f - 2.0f, 1.0f);
 }
 
+TEST(PartPlan, a_coat_is_as_glossy_as_its_brightest_texel) {
+    Material material = matt();
+    material.roughness = 0.3f;
+    material.specular_color = Rgb(25.0f);  // f0 = 1: of a specular-glossiness material
+    material.specular_color_texture.texture = 0;
+    Scene scene = triangles(material, false);
+    scene.images.push_back({2, 1, {0, 0, 0, 255, 188, 188, 188, 51}});
+    scene.textures.push_back({.image = 0});
+    EXPECT_NEAR(scene_facts(scene).static_exponent, 244.9f, 0.1f);
+    scene.materials[0].specular_texture.texture = 0;  // 0.5 of 0.2 is visible still
+    EXPECT_NEAR(scene_facts(scene).static_exponent, 244.9f, 0.1f);
+    scene.images[0].rgba = {0, 0, 0, 255, 22, 22, 22, 255};  // 0.008
+    EXPECT_EQ(scene_facts(scene).static_exponent, 0.0f);
+}
+
 TEST(PartPlan, glass_and_mirrors_need_caustics) {
     Material glass = matt(), mirror = matt();
     glass.transmission = 1;

@@ -103,6 +103,57 @@ TEST(Material, dielectrics_and_metals) {
     EXPECT_EQ(brdf.diffuse + brdf.specular, Rgb(0));
 }
 
+/// A 2 x 1 picture: 0 on the left; on the right sRGB 0.5029 in red, 1 in green, 0 in blue, 0.2 in alpha.
+struct CoatTexels : testing::Test {
+    CoatTexels() {
+        scene.images.push_back({2, 1, {0, 0, 0, 0, 188, 255, 0, 51}});
+        scene.textures.push_back({.image = 0});
+        material.base_color = Rgba(0.5f, 0.5f, 0.5f, 1);
+        material.metallic = 0;
+    }
+    glsl::Brdf brdf(float u) const { return surface_brdf(scene, material, {Vec2(0), Vec2(u, 0.5f)}, Rgba(1)); }
+    Scene scene;
+    Material material;
+    TextureRef ref{.texture = 0, .uv_set = 1};
+};
+
+TEST_F(CoatTexels, the_specular_texture_s_alpha_scales_the_coat) {
+    material.specular = 0.5f;
+    material.specular_texture = ref;
+    EXPECT_EQ(brdf(0.25f).specular, Rgb(0));
+    EXPECT_EQ(brdf(0.25f).diffuse, Rgb(0.5f));
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(brdf(0.75f).specular[c], 0.04f * 0.5f * 0.2f, 1e-7f);
+        EXPECT_NEAR(brdf(0.75f).diffuse[c], 0.5f * (1 - 0.004f), 1e-6f);
+    }
+}
+
+TEST_F(CoatTexels, the_specular_colour_texture_s_light_tints_the_coat) {
+    material.specular_color = Rgb(5, 10, 20);
+    material.specular_color_texture = ref;
+    EXPECT_EQ(brdf(0.25f).specular, Rgb(0));
+    const Rgb f0(0.2f * 0.502886f, 0.4f, 0);
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(brdf(0.75f).specular[c], f0[c], 1e-6f);
+        EXPECT_NEAR(brdf(0.75f).diffuse[c], 0.5f * (1 - 0.4f), 1e-6f);
+    }
+    // KHR_materials_specular cuts at 1 before it scales.
+    material.specular_color.g = 50;
+    material.specular_texture = ref;
+    EXPECT_NEAR(brdf(0.75f).specular.g, 0.2f, 1e-6f);
+}
+
+TEST_F(CoatTexels, the_transmission_texture_s_red_scales_the_share_of_glass) {
+    const auto share = [&](float u) { return transmission(scene, material, {Vec2(0), Vec2(u, 0.5f)}); };
+    material.transmission_texture = ref;
+    EXPECT_EQ(share(0.75f), 0.0f);
+    material.transmission = 0.5f;
+    EXPECT_EQ(share(0.25f), 0.0f);
+    EXPECT_NEAR(share(0.75f), 0.5f * 188.0f / 255.0f, 1e-6f);
+    material.transmission_texture = TextureRef();
+    EXPECT_EQ(share(0.25f), 0.5f);
+}
+
 TEST(Material, never_reflects_more_than_it_gets) {
     Scene scene;
     for (const float metallic : {0.0f, 0.5f, 1.0f})
