@@ -15,11 +15,21 @@ layout(binding = 2) uniform sampler2D normal_texture;
 #ifdef EMISSION_TEXTURE
 layout(binding = 3) uniform sampler2D emission_texture;
 #endif
+#ifdef SPECULAR_TEXTURE
+layout(binding = 12) uniform sampler2D specular_texture;
+#endif
+#ifdef SPECULAR_COLOR_TEXTURE
+layout(binding = 13) uniform sampler2D specular_color_texture;
+#endif
+#ifdef TRANSMISSION_TEXTURE
+layout(binding = 14) uniform sampler2D transmission_texture;
+#endif
 
-// uvs: both sets, in xy and zw. slot: 0 base, 1 metallic-roughness, 2 normal, 3 emission.
+// uvs: both sets, in xy and zw. slot: 0 base, 1 metallic-roughness, 2 normal, 3 emission, 4 specular,
+// 5 specular colour, 6 transmission.
 vec2 texture_uv(int slot, vec4 uvs) {
 #ifdef SECOND_UV
-    vec2 uv = material.uv_sets[slot] > 0.5 ? uvs.zw : uvs.xy;
+    vec2 uv = material.transforms[2 * slot].w > 0.5 ? uvs.zw : uvs.xy;
 #else
     vec2 uv = uvs.xy;
 #endif
@@ -53,7 +63,29 @@ vec3 material_emission(vec4 uvs) {
     return emission;
 }
 
-Brdf material_brdf(vec3 base_color, vec4 uvs) {
+// Normal reflectance of the dielectric coat.
+vec3 material_f0(vec4 uvs) {
+    vec3 f0 = material.dielectric.rgb;
+    float strength = material.dielectric.w;
+#ifdef SPECULAR_COLOR_TEXTURE
+    f0 *= texture(specular_color_texture, texture_uv(5, uvs)).rgb;
+#endif
+#ifdef SPECULAR_TEXTURE
+    strength *= texture(specular_texture, texture_uv(4, uvs)).a;
+#endif
+    return min(f0, vec3(1.0)) * strength;
+}
+
+// Share that is smooth glass.
+float material_transmission(vec4 uvs) {
+    float transmission = material.metal_rough.w;
+#ifdef TRANSMISSION_TEXTURE
+    transmission *= texture(transmission_texture, texture_uv(6, uvs)).r;
+#endif
+    return transmission;
+}
+
+Brdf material_brdf(vec3 base_color, vec3 dielectric_f0, vec4 uvs) {
     float metallic = material.metal_rough.x;
     float roughness = material.metal_rough.y;
 #ifdef METAL_ROUGH_TEXTURE
@@ -61,7 +93,7 @@ Brdf material_brdf(vec3 base_color, vec4 uvs) {
     roughness *= metal_rough.g;
     metallic *= metal_rough.b;
 #endif
-    return brdf_from_metallic_roughness(base_color, metallic, roughness, material.dielectric.rgb);
+    return brdf_from_metallic_roughness(base_color, metallic, roughness, dielectric_f0);
 }
 
 // n: the interpolated normal on the side that is seen; side: -1 on a back face, whose tangent frame is mirrored.

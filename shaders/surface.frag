@@ -105,7 +105,8 @@ void main() {
     normal = material_normal(normal, side, v_tangent, uvs, evenness);
 #endif
 
-    Brdf brdf = material_brdf(base_color.rgb, uvs);
+    vec3 dielectric_f0 = material_f0(uvs);
+    Brdf brdf = material_brdf(base_color.rgb, dielectric_f0, uvs);
 #ifdef NORMAL_TEXTURE
     brdf.exponent = uneven_exponent(brdf.exponent, evenness);
 #endif
@@ -120,9 +121,11 @@ void main() {
 #ifdef THROUGH
     vec3 through = vec3(0.0);
 #ifdef GLASS
-    // Smooth glass: what lies behind comes straight through, tinted, less Fresnel's share (Schlick 1994).
-    float transmission = material.metal_rough.w;
-    float f0 = max(material.dielectric.r, max(material.dielectric.g, material.dielectric.b));
+    // Smooth glass: what lies behind comes straight through, tinted, less Fresnel's share (Schlick 1994). By the share
+    // that is glass, which the reference meets by that chance: the rest reflects as any surface. Gloss is whole, since
+    // both have the coat; shadow maps take both for opaque, as the reference's shadow rays do.
+    float transmission = material_transmission(uvs);
+    float f0 = max(dielectric_f0.r, max(dielectric_f0.g, dielectric_f0.b));
     float fresnel = f0 + (1.0 - f0) * pow(1.0 - abs(dot(normal, view)), 5.0);
     through = base_color.rgb * (transmission * (1.0 - fresnel));
     brdf.diffuse *= 1.0 - transmission;

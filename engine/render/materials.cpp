@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstring>
 #include <set>
+#include <span>
 
 #include "engine/gl/target.h"
 #include "engine/render/mipmaps.h"
@@ -23,9 +24,20 @@ constexpr float kFineAnisotropy = 8.0f;
 // 0.029).
 constexpr float kFineLodBias = -1.0f;
 
-std::array<const TextureRef*, 4> slots(const Material& m) {
-    return {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.emission_texture};
-}
+/// How shaders/material.glsl takes a texture.
+struct Slot {
+    const char* define;
+    GLuint unit;
+    bool srgb;
+};
+// As Material::textures(); units 4 to 11 are the light's.
+constexpr std::array<Slot, 7> kSlots = {{{"BASE_COLOR_TEXTURE", 0, true},
+                                         {"METAL_ROUGH_TEXTURE", 1, false},
+                                         {"NORMAL_TEXTURE", 2, false},
+                                         {"EMISSION_TEXTURE", 3, true},
+                                         {"SPECULAR_TEXTURE", 12, false},
+                                         {"SPECULAR_COLOR_TEXTURE", 13, true},
+                                         {"TRANSMISSION_TEXTURE", 14, false}}};
 
 glsl::MaterialBlock block(const Material& m) {
     const float f0 = std::pow((m.ior - 1.0f) / (m.ior + 1.0f), 2.0f);
@@ -33,13 +45,12 @@ glsl::MaterialBlock block(const Material& m) {
     b.base_color = m.base_color;
     b.emission = Vec4(m.emission, m.alpha_cutoff);
     b.metal_rough = Vec4(m.metallic, m.roughness, m.normal_scale, m.transmission);
-    b.dielectric = Vec4(glm::min(f0 * m.specular * m.specular_color, Vec3(1.0f)), m.ior);
-    const auto refs = slots(m);
+    b.dielectric = Vec4(f0 * m.specular_color, m.specular);
+    const auto refs = m.textures();
     for (std::size_t i = 0; i < refs.size(); ++i) {
         const std::array<float, 6>& t = refs[i]->transform;
-        b.transforms[2 * i] = Vec4(t[0], t[1], t[2], 0.0f);
+        b.transforms[2 * i] = Vec4(t[0], t[1], t[2], float(refs[i]->uv_set));
         b.transforms[2 * i + 1] = Vec4(t[3], t[4], t[5], 0.0f);
-        b.uv_sets[glm::length_t(i)] = float(refs[i]->uv_set);
     }
     return b;
 }
@@ -76,7 +87,7 @@ bool has_extension(const char* name) {
     return false;
 }
 
-void add_uv_defines(std::vector<std::string>& defines, std::initializer_list<const TextureRef*> refs) {
+void add_uv_defines(std::vector<std::string>& defines, std::span<const TextureRef* const> refs) {
     bool textured = false, second = false, transform = false;
     for (const TextureRef* ref : refs) {
         if (ref->texture < 0) continue;
@@ -102,11 +113,10 @@ bool veils(const Material& m) {
 
 std::vector<std::string> surface_defines(const Material& m, bool vertex_colors) {
     std::vector<std::string> defines;
-    const char* names[] = {"BASE_COLOR_TEXTURE", "METAL_ROUGH_TEXTURE", "NORMAL_TEXTURE", "EMISSION_TEXTURE"};
-    const auto refs = slots(m);
+    const auto refs = m.textures();
     for (std::size_t i = 0; i < refs.size(); ++i)
-        if (refs[i]->texture >= 0) defines.push_back(names[i]);
-    add_uv_defines(defines, {refs[0], refs[1], refs[2], refs[3]});
+        if (refs[i]->texture >= 0) defines.push_back(kSlots[i].define);
+    add_uv_defines(defines, refs);
     if (vertex_colors) defines.push_back("VERTEX_COLOR");
     if (m.alpha_mode == AlphaMode::Mask) defines.push_back("MASK");
     if (m.alpha_mode == AlphaMode::Blend) defines.push_back("BLEND");
@@ -119,7 +129,7 @@ std::vector<std::string> surface_defines(const Material& m, bool vertex_colors) 
 std::vector<std::string> coverage_defines(const Material& m, bool vertex_colors) {
     std::vector<std::string> defines;
     if (m.base_color_texture.texture >= 0) defines.push_back("BASE_COLOR_TEXTURE");
-    add_uv_defines(defines, {&m.base_color_texture});
+    add_uv_defines(defines, std::array{&m.base_color_texture});
     if (vertex_colors) defines.push_back("VERTEX_COLOR");
     return defines;
 }
@@ -145,10 +155,10 @@ Materials::Materials(const Scene& scene, const std::vector<bool>& used) : scene_
 void Materials::upload_textures(const std::vector<bool>& used) {
     std::set<std::pair<int, bool>> unique;
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
-        const auto refs = slots(scene_.materials[i]);
+        const auto refs = scene_.materials[i].textures();
         for (std::size_t slot = 0; used[i] && slot < refs.size(); ++slot)
             if (refs[slot]->texture >= 0)
-                unique.emplace(scene_.textures[std::size_t(refs[slot]->texture)].image, slot == 0 || slot == 3);
+                unique.emplace(scene_.textures[std::size_t(refs[slot]->texture)].image, kSlots[slot].srgb);
     }
     const std::vector<std::pair<int, bool>> keys(unique.begin(), unique.end());
     std::vector<std::vector<Image8>> mips(keys.size());
@@ -172,8 +182,8 @@ void Materials::bind_texture(GLuint unit, const TextureRef& ref, bool srgb) cons
 
 void Materials::bind(std::uint32_t material) const {
     glBindBufferRange(GL_UNIFORM_BUFFER, 1, blocks_.get(), GLintptr(material) * stride_, sizeof(glsl::MaterialBlock));
-    const auto refs = slots(scene_.materials[material]);
-    for (GLuint i = 0; i < refs.size(); ++i) bind_texture(i, *refs[i], i == 0 || i == 3);
+    const auto refs = scene_.materials[material].textures();
+    for (std::size_t i = 0; i < refs.size(); ++i) bind_texture(kSlots[i].unit, *refs[i], kSlots[i].srgb);
 }
 
 void Materials::bind_coverage(std::uint32_t material) const {

@@ -26,7 +26,7 @@ class Materials {
     /// used   the materials that some triangle has; textures of the others are not uploaded
     Materials(const Scene& scene, const std::vector<bool>& used);
 
-    /// Factors to uniform block 1 and textures to units 0 to 3.
+    /// Factors to uniform block 1 and textures to units 0 to 3 and 12 to 14.
     void bind(std::uint32_t material) const;
     /// Only what coverage_defines() read.
     void bind_coverage(std::uint32_t material) const;

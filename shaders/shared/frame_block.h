@@ -48,11 +48,10 @@ struct LampsBlock {
 // A material's factors. Textures are bound by the draw; a texture that is absent has no code in the program.
 struct MaterialBlock {
     vec4 base_color;
-    vec4 emission;         // cd/m^2; w: alpha cutoff
-    vec4 metal_rough;      // metallic, roughness, normal scale, transmission
-    vec4 dielectric;       // f0 of the coat per channel; w: index of refraction
-    vec4 transforms[8];    // rows of the 2x3 texture transforms: base, metallic-roughness, normal, emission
-    vec4 uv_sets;          // 0 or 1: base, metallic-roughness, normal, emission
+    vec4 emission;        // cd/m^2; w: alpha cutoff
+    vec4 metal_rough;     // metallic, roughness, normal scale, transmission
+    vec4 dielectric;      // f0 of the coat per channel, to be cut at 1; w: factor of what is left
+    vec4 transforms[14];  // rows of the 2x3 texture transforms, as Material::textures(); w of the upper: the UV set
 };
 
 SHARED_END
@@ -61,7 +60,7 @@ namespace daylit::glsl {
 static_assert(sizeof(SunBlock) == 5 * 16);
 static_assert(sizeof(FrameBlock) == 2 * 64 + 4 * 16 + 4 * sizeof(SunBlock) + 16 * 16);
 static_assert(sizeof(LampBlock) == 5 * 16);
-static_assert(sizeof(MaterialBlock) == 13 * 16);
+static_assert(sizeof(MaterialBlock) == 18 * 16);
 }  // namespace daylit::glsl
 #endif
 #endif

@@ -9,6 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/exposure.h"
+#include "engine/scene/texture.h"
 #include "small_scenes.h"
 
 namespace daylit {
@@ -195,6 +196,72 @@ TEST_F(RendererTest, blend_covers_and_dims_by_alpha_gl) {
     const double behind_upper = 0.5 * lower_light + 0.5 * ground_light;
     EXPECT_LT(relative(image.at(32, 32).g, 0.25 * upper_light + 0.75 * behind_upper), 0.005);
     EXPECT_LT(relative(image.at(4, 4).g, 500.0 / kPi), 0.005);
+}
+
+/// A ground whose right half has another texel than the left, in the second UV set alone.
+Scene two_texel_ground(const Material& material, const std::vector<std::uint8_t>& rgba) {
+    Primitive primitive = ground(Vec3(0), 2, 2, 0);
+    primitive.uvs.push_back(primitive.uvs[0]);
+    primitive.uvs[0].assign(4, Vec2(0.25f));
+    Scene scene = scene_of({std::move(primitive)}, {material});
+    scene.images = {{2, 1, rgba}};
+    scene.image_names = {"two texels"};
+    scene.textures = {{0, Wrap::Repeat, Wrap::Repeat, Filter::Nearest}};
+    return scene;
+}
+
+TEST_F(RendererTest, textures_of_the_coat_are_those_of_the_cpu_gl) {
+    // Turned by half a period, so that the left half shows the right texel.
+    const TextureRef turned{.texture = 0, .uv_set = 1, .transform = {1, 0, 0.5f, 0, 1, 0}};
+    Material coat = lambert({0.5f, 0.25f, 0.75f});
+    coat.specular = 0.5f;
+    coat.specular_color = Rgb(20, 10, 40);  // blue is cut
+    for (const int textures : {1, 2, 3}) {
+        Material material = coat;
+        if (textures & 1) material.specular_texture = turned;
+        if (textures & 2) material.specular_color_texture = turned;
+        const Scene scene = two_texel_ground(material, {255, 188, 200, 51, 60, 255, 255, 204});
+        Renderer renderer(scene, nullptr);
+        renderer.set_lighting({{}, {Image(1, 1)}});
+        renderer.draw(frame_of(from_above(4.0f), 64, 64, Layer::Albedo));
+        const Image image = renderer.read_radiance();
+        for (const float u : {0.25f, 0.75f}) {
+            const glsl::Brdf brdf = surface_brdf(scene, material, {Vec2(0.25f), Vec2(u, 0.5f)}, Rgba(1.0f));
+            const Rgb seen = image.at(int(64 * u), 32);
+            for (int c = 0; c < 3; ++c)
+                EXPECT_LT(relative(seen[c], brdf.diffuse[c] + brdf.specular[c]), 2e-3) << textures << " at " << u;
+        }
+    }
+}
+
+TEST_F(RendererTest, the_share_of_glass_lets_through_and_the_rest_reflects_gl) {
+    // Without a coat nothing is mirrored; the floor shines, and lies in the sheet's shadow.
+    Material sheet = lambert({0.75f, 0.5f, 0.25f});
+    sheet.transmission = 0.8f;
+    sheet.transmission_texture = {.texture = 0, .uv_set = 1, .transform = {1, 0, 0.5f, 0, 1, 0}};
+    Material floor = lambert(Rgb(0.0f));
+    floor.emission = Rgb(400.0f);
+    Scene scene = two_texel_ground(sheet, {64, 255, 255, 255, 255, 0, 0, 0});
+    Scene below = scene_of({ground(Vec3(0, -1, 0), 3, 3, 1)}, {});
+    below.nodes[0].mesh = 1;
+    scene.order.push_back(1);
+    scene.nodes.push_back(below.nodes[0]);
+    scene.meshes.push_back(below.meshes[0]);
+    scene.materials.push_back(floor);
+    Renderer renderer(scene, nullptr);
+    renderer.set_lighting(one_sun({0, 1, 0}, 1000.0f));
+    renderer.draw(frame_of(from_above(4.0f), 64, 64));
+    const Image image = renderer.read_radiance();
+    for (const float u : {0.25f, 0.75f}) {
+        const float share = transmission(scene, sheet, {Vec2(0.25f), Vec2(u, 0.5f)});
+        EXPECT_NEAR(share, u < 0.5f ? 0.8f : 0.8f * 64 / 255, 1e-6f);
+        for (int c = 0; c < 3; ++c) {
+            const double tint = sheet.base_color[c];
+            EXPECT_LT(relative(image.at(int(64 * u), 32)[c], tint * (share * 400.0 + (1.0 - share) * 1000.0 / kPi)),
+                      2e-3)
+                << u;
+        }
+    }
 }
 
 TEST_F(RendererTest, culling_does_not_change_the_picture_gl) {
