@@ -24,7 +24,9 @@ std::vector<double> summed_areas(const Scene& scene, const WorldMesh& mesh) {
         const std::uint32_t* corner = &mesh.indices[3 * t];
         const glm::dvec3 a = mesh.positions[corner[0]], b = mesh.positions[corner[1]], c = mesh.positions[corner[2]];
         const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
-        if (std::isfinite(area) && scene.materials[mesh.materials[t]].transmission <= 0.0f) sum += area;
+        const Material& material = scene.materials[mesh.materials[t]];
+        const bool glass = material.transmission > 0.0f && material.transmission_texture.texture < 0;
+        if (std::isfinite(area) && !glass) sum += area;
         sums[t] = sum;
     }
     return sums;
@@ -79,7 +81,8 @@ std::vector<SurfaceSample> sample_surface(const RayScene& rays, const Pose& pose
             color += weights[k] * mesh.colors[corner[k]];
             for (std::size_t set = 0; set < 2; ++set) uvs[set] += weights[k] * mesh.uvs[corner[k]][set];
         }
-        if (base_color(scene, scene.materials[mesh.materials[t]], uvs, color).a <= 0.0f) continue;
+        const Material& material = scene.materials[mesh.materials[t]];
+        if (transmission(scene, material, uvs) > 0.0f || base_color(scene, material, uvs, color).a <= 0.0f) continue;
         const glm::dvec3 a = mesh.positions[corner[0]], b = mesh.positions[corner[1]], c = mesh.positions[corner[2]];
         const SurfaceSample point{position, Vec3(glm::normalize(glm::cross(b - a, c - a)))};
         if (in_the_open(rays, point, mix64(seed ^ std::uint64_t(tries)))) points.push_back(point);

@@ -7,6 +7,7 @@
 
 #include "engine/base/random.h"
 #include "gi/surface/charts.h"
+#include "gi/transport/path_trace/materials.h"
 #include "gi/transport/path_trace/sampling.h"
 
 namespace daylit {
@@ -27,7 +28,7 @@ struct Outlook {
 
 class Onlooker {
   public:
-    Onlooker(const RayScene& rays, float spacing) : rays_(rays), spacing_(spacing) {}
+    Onlooker(const RayScene& rays, float spacing) : rays_(rays), materials_(rays.scene()), spacing_(spacing) {}
 
     Surroundings around(std::uint32_t triangle, const Facet& facet) const {
         for (const float side : {1.0f, -1.0f})
@@ -69,7 +70,7 @@ class Onlooker {
             const float u = (float(i) + random.next()) / float(kLooks), v = random.next();
             const Vec3 direction = frame.to_world(sample_cosine_hemisphere(u, v));
             const Ray ray{RayScene::offset_origin(place, normal, direction), direction};
-            const std::optional<Hit> hit = past_glass(ray, random.bits());
+            const std::optional<Hit> hit = past_glass(ray, random);
             const float cosine = hit ? glm::dot(direction, hit->normal) : -1.0f;
             outlook.open |= !hit || (cosine < 0.0f && hit->distance > kCovered * spacing_);
             if (!hit) continue;
@@ -83,9 +84,11 @@ class Onlooker {
         return outlook;
     }
 
-    std::optional<Hit> past_glass(Ray ray, std::uint64_t key) const {
+    std::optional<Hit> past_glass(Ray ray, Random& random) const {
+        const std::uint64_t key = random.bits();
         const auto glass = [&](const Hit& hit) {
-            return rays_.scene().materials[rays_.mesh().materials[hit.triangle]].transmission > 0.0f;
+            return materials_.glass(rays_.mesh().materials[hit.triangle]) &&
+                   materials_.meets_glass(rays_.surface_point(ray, hit), random);
         };
         std::optional<Hit> hit = rays_.closest(ray, key);
         for (int pane = 0; hit && glass(*hit) && pane < kPanes; ++pane) {
@@ -96,6 +99,7 @@ class Onlooker {
     }
 
     const RayScene& rays_;
+    Materials materials_;
     float spacing_;
 };
 

@@ -87,8 +87,7 @@ std::uint8_t details_of(const Scene& scene, const WorldMesh& mesh, std::uint32_t
     const Material& m = scene.materials[mesh.materials[triangle]];
     std::uint8_t details = 0;
     if (m.normal_texture.texture >= 0) details |= kBumped;
-    for (const TextureRef* ref :
-         {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.emission_texture})
+    for (const TextureRef* ref : m.textures())
         if (ref->texture >= 0) details |= kTextured;
     for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t vertex = mesh.indices[3 * std::size_t(triangle) + k];

@@ -8,7 +8,11 @@
 #include <sstream>
 #include <string>
 
+#include "gi/surface/atlas.h"
+#include "gi/surface/texels.h"
+#include "gi/transport/day_gather/sight.h"
 #include "gi/transport/path_trace/bsdf.h"
+#include "gi/transport/path_trace/materials.h"
 #include "tests/physics/scenes.h"
 
 namespace daylit {
@@ -20,10 +24,7 @@ void expect_relative(const Rgb& got, const Rgb& wanted, double tolerance) {
 
 /// Two texels side by side, from v = 0 to 1.
 Image8 two_texels(std::array<std::uint8_t, 4> left, std::array<std::uint8_t, 4> right) {
-    Image8 image{2, 1, {}};
-    image.rgba.insert(image.rgba.end(), left.begin(), left.end());
-    image.rgba.insert(image.rgba.end(), right.begin(), right.end());
-    return image;
+    return {2, 1, {left[0], left[1], left[2], left[3], right[0], right[1], right[2], right[3]}};
 }
 
 Material veil(float alpha, const Rgb& albedo, const Rgb& emission) {
@@ -144,6 +145,124 @@ TEST(Glass, BodyAndPaneLetTheSameThrough) {
         // Direct leaves out what bounced inside the slab: (1 - R)^2 rather than (1 - R) / (1 + R).
         const float share = pane ? 0.96f / 1.04f : 0.96f * 0.96f;
         expect_relative(mean(picture.radiance), 10.0f * tint * share, 3e-3);
+    }
+}
+
+/// Of a picture and its mean's own standard error: pixels are independent.
+struct Measured {
+    Rgb mean, error;
+};
+Measured measured(const PathTraceImage& picture) {
+    glm::dvec3 squares(0.0);
+    for (const Rgb& e : picture.standard_error.pixels) squares += glm::dvec3(e) * glm::dvec3(e);
+    return {mean(picture.radiance), Rgb(glm::sqrt(squares) / double(picture.standard_error.pixels.size()))};
+}
+
+/// A sheet of this material over a black floor that shines with 10, under a sky of 4; seen from above at x.
+PathTraceImage sheet_seen_at(TestScene& test, const Material& material, float x) {
+    test.quad(test.add(lambert(Rgb(0.0f), Rgb(10.0f))), {-5, -1, 5}, {10, 0, 0}, {0, 0, -10});
+    test.quad(test.add(material), {-1, 0, 1}, {2, 0, 0}, {0, 0, -2});
+    return path_trace(test.trace(), constant_sky(Rgb(4.0f)), {}, pinpoint({x, 1, 0.1f}, {0, -1, 0.001f}), 16, 16,
+                      {.spp = 1024});
+}
+
+TEST(Glass, ShareOfItIsMetByThatChance) {
+    // A pane lets tint (1 - R) / (1 + R) through and mirrors 2 R / (1 + R), R = 0.04; the rest is a Lambert surface
+    // under an open sky.
+    const Rgb tint(0.9f, 0.5f, 0.2f);
+    const auto light = [&](float share) {
+        return share * (10.0f * tint * (0.96f / 1.04f) + 4.0f * (0.08f / 1.04f)) + (1.0f - share) * 4.0f * tint;
+    };
+    const auto expect = [&](float factor, bool textured, float x, float share) {
+        TestScene test;
+        Material material = glass(1.5f, tint);
+        material.transmission = factor;
+        if (textured) material.transmission_texture = test.add_texture(two_texels({255, 0, 0, 0}, {0, 255, 255, 255}));
+        const Measured got = measured(sheet_seen_at(test, material, x));
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_LT(got.error[c], 0.02f);
+            EXPECT_NEAR(got.mean[c], light(share)[c], 4.0f * got.error[c] + 1e-4f) << factor << " at " << x;
+        }
+    };
+    expect(0.5f, false, 0.5f, 0.5f);
+    expect(0.5f, true, -0.5f, 0.5f);
+    expect(0.5f, true, 0.5f, 0.0f);
+    expect(1.0f, true, -0.5f, 1.0f);
+    expect(1.0f, true, 0.5f, 0.0f);
+}
+
+TEST(Glass, WholeOrNoneTakesNoRandomNumber) {
+    // So scenes whose glass is glass all over give the same pictures as ever, to the bit.
+    struct Refused {
+        float next() {
+            ADD_FAILURE() << "a number was drawn";
+            return 0.5f;
+        }
+    } random;
+    TestScene test;
+    Material half = glass(1.5f);
+    half.transmission_texture = test.add_texture(two_texels({255, 0, 0, 0}, {0, 255, 255, 255}));
+    const std::uint32_t opaque = test.add(lambert(Rgb(0.5f))), whole = test.add(glass(1.5f)), varied = test.add(half);
+    const Materials materials(test.scene);
+    const auto meets = [&](std::uint32_t material, float u) {
+        SurfacePoint point{};
+        point.material = material;
+        point.uvs[0] = Vec2(u, 0.5f);
+        return materials.meets_glass(point, random);
+    };
+    EXPECT_FALSE(meets(opaque, 0.25f));
+    EXPECT_TRUE(meets(whole, 0.25f));
+    EXPECT_TRUE(meets(varied, 0.25f));
+    EXPECT_FALSE(meets(varied, 0.75f));
+}
+
+TEST(Glass, GatherRaysMeetItByThatChance) {
+    // Clear glass of ior 1: rays that go on are those that met glass.
+    TestScene test;
+    Material material = glass(1.0f);
+    material.transmission = 0.5f;
+    material.transmission_texture = test.add_texture(two_texels({255, 0, 0, 255}, {128, 0, 0, 255}));
+    test.quad(test.add(material), {-1, 0, 1}, {2, 0, 0}, {0, 0, -2});
+    const Atlas atlas = make_atlas(test.mesh, 100);
+    const Texels texels = make_texels(test.mesh, atlas);
+    const GatherScene scene = gather_scene(test.trace(), atlas, texels, {});
+    const Sight sight(scene);
+    for (const float x : {-0.5f, 0.5f}) {
+        constexpr int kRays = 1 << 16;
+        Random random(1, 2, 3);
+        int passed = 0;
+        for (int i = 0; i < kRays; ++i) {
+            Ray ray{{x, 1, 0.1f}, {0, -1, 0}};
+            passed += !sight.past_glass(ray, random);
+        }
+        const double share = x < 0 ? 0.5 : 0.5 * 128 / 255;
+        EXPECT_NEAR(passed / double(kRays), share, 4.0 * std::sqrt(share * (1.0 - share) / kRays)) << x;
+    }
+}
+
+TEST(Coat, TexturesOfItAreSeenByPaths) {
+    // The albedo layer is the shared BRDF's; black without the textures' right UVs.
+    TestScene test;
+    Material material = lambert(Rgb(0.0f));
+    material.specular = 0.5f;
+    material.specular_color = Rgb(20.0f);
+    for (const bool colour : {false, true}) {
+        Material coat = material;
+        (colour ? coat.specular_color_texture : coat.specular_texture) =
+            test.add_texture(two_texels({0, 0, 0, 0}, {255, 188, 0, 51}));
+        test.quad(test.add(coat), {-1, colour ? 0.0f : -1.0f, 1}, {2, 0, 0}, {0, 0, -2});
+    }
+    const auto albedo = [&](float x, float y) {
+        return mean(path_trace(test.trace(), no_light(), {}, pinpoint({x, y + 0.5f, 0.1f}, {0, -1, 0.01f}), 2, 2,
+                               {.spp = 4, .layer = Layer::Albedo})
+                        .radiance);
+    };
+    EXPECT_EQ(albedo(-0.5f, 0), Rgb(0));
+    EXPECT_EQ(albedo(-0.5f, -1), Rgb(0));
+    const Rgb colour = albedo(0.5f, 0), strength = albedo(0.5f, -1);
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(colour[c], 0.5f * 0.8f * Rgb(1, 0.502886f, 0)[c], 1e-5f);
+        EXPECT_NEAR(strength[c], 0.5f * 0.2f * 0.8f, 1e-5f);
     }
 }
 

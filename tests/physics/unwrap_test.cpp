@@ -220,6 +220,16 @@ TEST(LookAround, NearnessBetweenParallelPlates) {
     }
 }
 
+TEST(LookAround, LooksThroughTheShareThatIsGlass) {
+    TestScene made;
+    Material sheet = glass(1.5f);
+    sheet.transmission = 0.25f;
+    made.quad(made.add(lambert(Rgb(0.5f))), Vec3(0, 0, 0), Vec3(0, 0, 400), Vec3(400, 0, 0));
+    made.quad(made.add(sheet), Vec3(0, 2, 0), Vec3(400, 0, 0), Vec3(0, 0, 400));
+    const std::vector<Surroundings> around = look_around(made.trace(), 2.0f);
+    for (std::size_t t = 0; t < 2; ++t) EXPECT_NEAR(around[t].nearness, 0.75f * 2.0f / (3.0f * 2.0f), 0.01f);
+}
+
 TEST(LookAround, InsideASolidIsHiddenAndTheOpenIsNot) {
     TestScene made;
     const std::uint32_t grey = made.add(lambert(Rgb(0.5f)));

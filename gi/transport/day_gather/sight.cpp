@@ -30,6 +30,7 @@ std::optional<Hit> Sight::past_glass(Ray& ray, Random& random) const {
     std::optional<Hit> met = scene_.rays.closest(ray, random.bits());
     for (int events = 0; met && events < kGlassEvents && materials_.glass(mesh.materials[met->triangle]); ++events) {
         const SurfacePoint point = scene_.rays.surface_point(ray, *met);
+        if (!materials_.meets_glass(point, random)) return met;
         const float ior = scene_.rays.scene().materials[point.material].ior;
         const bool pane = panes_[met->triangle], entering = glm::dot(ray.direction, met->normal) < 0.0f;
         const float u = random.next();

@@ -137,7 +137,7 @@ void Integrator::trace(Path& path, Ray& ray) const {
 bool Integrator::meet(Path& path, Ray& ray, const Hit& hit) const {
     const SurfacePoint point = rays_.surface_point(ray, hit);
     if (materials_.emits(point.material)) add_emission(path, ray, hit, point);
-    if (materials_.glass(point.material)) {
+    if (materials_.meets_glass(point, path.random)) {
         pass_glass(path, ray, hit, point);
         if (!want_indirect_ && !path.seen) return false;
         return path.glass_events <= kGlassEventsBeforeRoulette || survives(path);

@@ -10,7 +10,8 @@ Materials::Materials(const Scene& scene, float evening) : scene_(scene) {
         c.glass = !m.unlit && m.transmission > 0.0f;
         c.shining = m.lit == Lit::Evening ? evening : 1.0f;
         c.emits = m.unlit || m.emission * c.shining != Rgb(0.0f);
-        c.plain_brdf = m.base_color_texture.texture < 0 && m.metallic_roughness_texture.texture < 0;
+        c.plain_brdf = m.base_color_texture.texture < 0 && m.metallic_roughness_texture.texture < 0 &&
+                       m.specular_texture.texture < 0 && m.specular_color_texture.texture < 0;
         if (c.plain_brdf) c.brdf = surface_brdf(scene, m, {}, Rgba(1.0f));
         constants_.push_back(c);
     }

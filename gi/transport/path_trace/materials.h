@@ -13,7 +13,16 @@ class Materials {
     /// evening   share of their light that emitters lit in the evening give
     explicit Materials(const Scene& scene, float evening = 1.0f);
 
+    /// Whether some of it is glass.
     bool glass(std::uint32_t material) const { return constants_[material].glass; }
+    /// Whether light meets glass at a point, or the opaque rest: by chance, as their shares are. A number is drawn only
+    /// where both may be met.
+    template <class Random>
+    bool meets_glass(const SurfacePoint& point, Random& random) const {
+        if (!glass(point.material)) return false;
+        const float share = transmission(scene_, scene_.materials[point.material], point.uvs);
+        return share >= 1.0f || (share > 0.0f && random.next() < share);
+    }
     bool emits(std::uint32_t material) const { return constants_[material].emits; }
     bool unlit(std::uint32_t material) const { return constants_[material].unlit; }
 
@@ -29,7 +38,7 @@ class Materials {
     struct Constants {
         bool glass = false, emits = false, unlit = false;
         float shining = 1.0f;     // share of its emission, by its hours
-        bool plain_brdf = false;  // no texture: `brdf` holds where the vertex colour is white
+        bool plain_brdf = false;  // no texture of it: `brdf` holds where the vertex colour is white
         glsl::Brdf brdf{};
     };
     const Scene& scene_;
