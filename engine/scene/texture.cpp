@@ -139,4 +139,18 @@ Vec3 shading_normal(const Scene& scene, const Material& material, const std::arr
     return length > 1e-6f ? mapped / length : normal;
 }
 
+float mean_cosine(const Scene& scene, const Material& material) {
+    if (material.normal_texture.texture < 0) return 1.0f;
+    const Texture& texture = scene.textures[std::size_t(material.normal_texture.texture)];
+    const std::vector<std::uint8_t>& rgba = scene.images[std::size_t(texture.image)].rgba;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < rgba.size(); i += 4) {
+        const Vec3 local = Vec3(rgba[i], rgba[i + 1], rgba[i + 2]) / 127.5f - 1.0f;
+        const float length = glm::length(local * Vec3(Vec2(material.normal_scale), 1.0f));
+        // One that leans under the surface is mirrored above it when it is met.
+        sum += length > 1e-6f ? double(std::abs(local.z) / length) : 1.0;
+    }
+    return rgba.empty() ? 1.0f : float(sum / (double(rgba.size()) / 4.0));
+}
+
 }  // namespace daylit

@@ -32,4 +32,8 @@ glsl::Brdf surface_brdf(const Scene& scene, const Material& material, const std:
 Vec3 shading_normal(const Scene& scene, const Material& material, const std::array<Vec2, 2>& uvs, const Vec3& normal,
                     const Vec4& tangent);
 
+/// Cosine between the normals of a normal map and the surface's, averaged over the whole picture: what is left of
+/// straight light on the surface once its normals lean. 1 without a map.
+float mean_cosine(const Scene& scene, const Material& material);
+
 }  // namespace daylit

@@ -9,6 +9,8 @@
 #include "content/content.h"
 #include "engine/base/file.h"
 #include "engine/scene/gltf.h"
+#include "engine/scene/tangents.h"
+#include "engine/scene/texture.h"
 #include "gi/bake.h"
 #include "gi/transport/path_trace/path_trace.h"
 
@@ -189,6 +191,41 @@ TEST_F(Bake, LeanedNormalsAgreeWithTheReference) {
     }
     EXPECT_LT(leaned_error, 0.09);
     EXPECT_LT(leaned_error, 0.75 * flat_error);  // against the surface's own normal
+}
+
+// Facets that lean by 40 degrees, to four sides in turn: of a lamp's light they reflect the mean cosine's share, of
+// light from all around half as much is missing.
+TEST_F(Bake, BumpsReflectLessThanTheSurfaceThatTheyAreOn) {
+    Scene scene = made("two_rooms");
+    const auto facet = [](double side) { return std::uint8_t(std::lround(127.5 + 127.5 * std::sin(side))); };
+    const double lean = glm::radians(40.0);
+    const std::uint8_t low = facet(-lean), high = facet(lean), up = facet(0.5 * kPi - lean);
+    scene.images.push_back({2, 2, {low, 128, up, 255, 128, low, up, 255, 128, high, up, 255, high, 128, up, 255}});
+    scene.image_names.push_back("facets");
+    scene.textures.push_back({.image = int(scene.images.size() - 1), .filter = Filter::Nearest});
+    for (Material& m : scene.materials) {
+        m.normal_texture.texture = int(scene.textures.size() - 1);
+        m.normal_texture.transform = {16.0f, 0.0f, 0.0f, 0.0f, 16.0f, 0.0f};
+    }
+    for (Mesh& mesh : scene.meshes)
+        for (Primitive& primitive : mesh.primitives) {
+            primitive.uvs.resize(1);
+            for (std::size_t v = 0; v < primitive.positions.size(); ++v) {
+                const Vec3 &p = primitive.positions[v], n = glm::abs(primitive.normals[v]);
+                primitive.uvs[0].push_back(n.x > 0.5f ? Vec2(p.y, p.z) : n.y > 0.5f ? Vec2(p.z, p.x) : Vec2(p.x, p.y));
+            }
+            make_tangents(primitive, 0);
+        }
+    EXPECT_NEAR(mean_cosine(scene, scene.materials[0]), std::cos(lean), 0.005);
+    const Baked baked = bake(scene, quick(12.0, 0.1));
+    const auto found = look_up(scene, baked, 12.0, [](const Vec3& p, const Vec3&) {
+        return p.x > -4.15f && p.x < -0.05f && std::abs(p.z) < 2.05f && p.y > -0.05f && p.y < 2.85f;
+    });
+    const std::vector<Rgb> expected = traced(scene, baked, found);
+    double sum = 0.0, truth = 0.0;
+    for (std::size_t i = 0; i < found.size(); ++i)
+        sum += luminance(found[i].irradiance), truth += luminance(expected[i]);
+    EXPECT_NEAR(sum / truth, 1.0, 0.05);
 }
 
 TEST_F(Bake, LampsOfTheEveningShineInTheEveningOnly) {

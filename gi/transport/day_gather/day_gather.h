@@ -3,7 +3,8 @@
 // hits, which make one big sparse matrix, are applied to all hours as columns; bounces are repeated application.
 // day_columns.h says what the columns are, day_solution.h how the result is kept.
 //
-// In this form gloss reflects like Lambert with its whole albedo, and a texel reflects with its mean albedo.
+// In this form gloss reflects like Lambert with its whole albedo, and a texel reflects with its mean albedo, and under a
+// normal map as much less as its normals lean.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -64,6 +65,7 @@ struct GatherScene {
     const Texels& texels;
     std::span<const PlacedLight> lamps;  // point and spot
     std::vector<Rgb> albedo;             // per texel
+    std::vector<float> evenness;         // per texel: mean cosine of its normal map's normals (mean_cosine())
 };
 GatherScene gather_scene(const RayScene& rays, const Atlas& atlas, const Texels& texels,
                          std::span<const PlacedLight> lamps);

@@ -197,12 +197,15 @@ void resolve(const GatherScene& scene, GatherHits& hits) {
 
 GatherScene gather_scene(const RayScene& rays, const Atlas& atlas, const Texels& texels,
                          std::span<const PlacedLight> lamps) {
-    GatherScene scene{rays, atlas, texels, lamps, std::vector<Rgb>(texels.count())};
+    GatherScene scene{rays, atlas, texels, lamps, std::vector<Rgb>(texels.count()), std::vector<float>(texels.count())};
+    std::vector<float> evenness;
+    for (const Material& material : rays.scene().materials) evenness.push_back(mean_cosine(rays.scene(), material));
     const WorldMesh& mesh = rays.mesh();
     const StageProgress silent{Progress{}};
     for_each_parallel(texels.count(), silent, [&](std::size_t i) {
         const auto points = texels.points_of(i);
         Rgb sum(0.0f);
+        float even = 0.0f;
         for (const TexelPoint& p : points) {
             const std::uint32_t* c = &mesh.indices[3 * std::size_t(p.triangle)];
             const Vec3 w(1.0f - p.barycentric.x - p.barycentric.y, p.barycentric.x, p.barycentric.y);
@@ -213,8 +216,10 @@ GatherScene gather_scene(const RayScene& rays, const Atlas& atlas, const Texels&
             const glsl::Brdf brdf =
                 surface_brdf(rays.scene(), rays.scene().materials[mesh.materials[p.triangle]], uvs, color);
             sum += glm::clamp(glsl::mean_albedo(brdf), Rgb(0.0f), Rgb(1.0f));
+            even += evenness[mesh.materials[p.triangle]];
         }
         scene.albedo[i] = sum / float(points.size());
+        scene.evenness[i] = even / float(points.size());
     });
     return scene;
 }

@@ -49,7 +49,16 @@ class Solver {
 
   private:
     std::size_t width() const { return 3 * solution_.basis.components; }
-    const Rgb& albedo(std::size_t receiver) const { return scene_.albedo[hits_.receivers[receiver].texel]; }
+    /// What a receiver reflects of straight light: under a normal map its normals lean, by their mean cosine.
+    Rgb of_straight(std::size_t receiver) const {
+        const std::size_t texel = hits_.receivers[receiver].texel;
+        return scene_.albedo[texel] * scene_.evenness[texel];
+    }
+    /// Of light from all sides, of which a normal that leans loses half as much (shaders/shared/lightmap.h).
+    Rgb of_all_around(std::size_t receiver) const {
+        const std::size_t texel = hits_.receivers[receiver].texel;
+        return scene_.albedo[texel] * (0.5f + 0.5f * scene_.evenness[texel]);
+    }
     std::span<const std::uint32_t> hits_of(std::size_t receiver) const {
         return {hits_.hit.data() + receiver * std::size_t(hits_.rays), std::size_t(hits_.rays)};
     }
@@ -101,7 +110,7 @@ class Solver {
 
     /// Reflected sunlight of a receiver, in full.
     void add_sun(std::size_t receiver, float scale, std::size_t columns, float* row) const {
-        const Rgb reflected = scale * albedo(receiver);
+        const Rgb reflected = scale * of_straight(receiver);
         for (std::size_t channel = 0; channel < 3; ++channel) {
             if (!direct_.suns.empty())
                 row[channel * columns] += reflected[int(channel)] * direct_.suns[receiver][int(channel)];
@@ -149,8 +158,8 @@ class Solver {
         double always = 0.0, evening = 0.0;
         const double share = 1.0 / double(std::max<std::size_t>(scene_.texels.count(), 1));
         for (std::size_t t = 0; t < scene_.texels.count(); ++t) {
-            always += share * double(luminance(albedo(t) * (lamps_[t].always + hits_.emission[t].always)));
-            evening += share * double(luminance(albedo(t) * (lamps_[t].evening + hits_.emission[t].evening)));
+            always += share * double(luminance(scene_.albedo[t] * (lamps_[t].always + hits_.emission[t].always)));
+            evening += share * double(luminance(scene_.albedo[t] * (lamps_[t].evening + hits_.emission[t].evening)));
         }
         for (std::size_t k = 0; k < result.size(); ++k)
             result[k] = std::max(result[k] + always + double(light_.scales[k].evening) * evening, 1e-4);
@@ -179,14 +188,14 @@ class Solver {
             for (std::size_t i = 0; i < changing; ++i) sun[i] += arc.values[k] * project[i];
         }
         for (std::size_t i = 0; i < changing; ++i) {
-            row[i] = albedo(r) * sun[i];
-            if (!direct_.suns.empty()) row[i] += albedo(r) * project_[i] * direct_.suns[r];
+            row[i] = of_straight(r) * sun[i];
+            if (!direct_.suns.empty()) row[i] += of_straight(r) * project_[i] * direct_.suns[r];
         }
         const std::size_t evening = basis.component_of(StillPart::Evening),
                           lamps = basis.component_of(StillPart::Lamps);
         const ByLit& emission = hits_.emission[r];
-        row[evening] = albedo(r) * (lamps_[r].evening + emission.evening);
-        row[lamps] = albedo(r) * (lamps_[r].always + emission.always);
+        row[evening] = of_straight(r) * lamps_[r].evening + of_all_around(r) * emission.evening;
+        row[lamps] = of_straight(r) * lamps_[r].always + of_all_around(r) * emission.always;
         if (r < scene_.texels.count()) {
             solution_.texels[r * basis.components + evening] = emission.evening;
             solution_.texels[r * basis.components + lamps] = emission.always;
@@ -270,9 +279,10 @@ class Solver {
         Rgb* leaving = solution_.leaving.data() + r * components;
         Rgb* texel = front ? solution_.texels.data() + r * components : nullptr;
         std::array<Rgb, 64> reflected;
+        const Rgb albedo = of_all_around(r);
         for (std::size_t i = 0; i < components; ++i) {
             const Rgb light(gathered[3 * i], gathered[3 * i + 1], gathered[3 * i + 2]);
-            reflected[i] = albedo(r) * light;
+            reflected[i] = albedo * light;
             leaving[i] += reflected[i];
             if (!front) continue;
             texel[i] += light;
