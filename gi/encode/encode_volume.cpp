@@ -27,8 +27,8 @@ constexpr float kLargestHalf = 16384.0f, kFullHalf = 65504.0f;
 constexpr float kCutShare = 0.05f;
 constexpr float kMostWindow = 4.0f;  // the largest lambda that is tried
 
-const std::array<Vec3, 6> kSides = {Vec3(1, 0, 0),  Vec3(-1, 0, 0), Vec3(0, 1, 0),
-                                    Vec3(0, -1, 0), Vec3(0, 0, 1),  Vec3(0, 0, -1)};
+const std::array<Vec3, kJudgedSides> kSides = {Vec3(1, 0, 0),  Vec3(-1, 0, 0), Vec3(0, 1, 0),
+                                               Vec3(0, -1, 0), Vec3(0, 0, 1),  Vec3(0, 0, -1)};
 
 /// Dynamic nodes that rest inside of something solid.
 std::vector<std::string> buried_nodes(const Scene& scene, const FreeSpace& space) {

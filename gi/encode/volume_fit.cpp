@@ -14,6 +14,7 @@ namespace {
 constexpr double kHeld = 1e-9;          // weight of the start, against all that is said of an unknown
 constexpr std::size_t kColumns = 64;    // solved together
 constexpr float kMostOfChange = 0.25f;  // weight of a change that rays told, against a value: silhouettes are not in it
+constexpr double kSteepest = 1.0;       // most of a change over the cell's side, against the light itself
 constexpr double kDarkest = 1e-5;       // of the mean brightness: the darkest that errors are relative to
 constexpr float kEven = 0.05f;          // of that weight, that nothing changes there
 constexpr float kWeakly = 0.1f;         // weight of guesses, against what was measured
@@ -151,6 +152,21 @@ class Fitter {
         return near * near * (noise > 0.0f ? std::min(kMostOfChange, 1.0f / (noise * noise)) : kMostOfChange);
     }
 
+    /// Share that is believed of a change over this many metres. Beside an opening light changes as steeply as it can
+    /// over a hand's breadth only: over a large cell that would be many times the light itself, and swing below zero.
+    /// The hour at which it is worst decides for all numbers, so that colours keep their proportion.
+    static float believed(const VolumeSample& sample, float side) {
+        const std::size_t functionals = sample.judged.size() / 4, hours = functionals / kJudgedSides;
+        double share = 1.0;
+        for (std::size_t hour = 0; hour < hours; ++hour) {
+            double light = 0.0, change = 0.0;
+            for (std::size_t i = hour; i < 4 * functionals; i += hours)
+                (i < functionals ? light : change) += double(sample.judged[i]) * double(sample.judged[i]);
+            if (change > 0.0) share = std::min(share, kSteepest * std::sqrt(light / change) / double(side));
+        }
+        return float(share);
+    }
+
     void state_corners() {
         for (std::uint32_t s = 0; s < cells_.samples.size(); ++s) {
             const SampledCorner& corner = cells_.samples[s];
@@ -164,9 +180,10 @@ class Fitter {
             const float importance_here = importance(*found);
             equations_.push_back({{{4 * s, 1.0f}}, importance_here, found->light.data(), 1.0f});
             const float weight = weight_of_change(*found, side_[s]);
+            const float scale = believed(*found, side_[s]) * side_[s];
             for (std::uint32_t a = 1; a < 4; ++a)
                 equations_.push_back(
-                    {{{4 * s + a, 1.0f}}, importance_here * weight, found->light.data() + a * numbers_, side_[s]});
+                    {{{4 * s + a, 1.0f}}, importance_here * weight, found->light.data() + a * numbers_, scale});
         }
     }
 
@@ -193,12 +210,13 @@ class Fitter {
                 // It tells of a thin layer, the thinner the larger the cell.
                 const float of_value = nearness(measured, cell.box.w) * importance(measured);
                 const float of_change = of_value * weight_of_change(measured, cell.box.w);
+                const float scale = believed(measured, cell.box.w) * cell.box.w;
                 for (std::size_t part = 0; part < 4; ++part) {
                     Equation equation{{}, of_value, measured.light.data() + part * numbers_, 1.0f};
                     blend(cell, weights_of(at.t, cell.box.w, part), equation.row);
                     tidy(equation.row);
                     if (part > 0) {  // over the cell's side, as at corners
-                        equation.weight = of_change, equation.scale = cell.box.w;
+                        equation.weight = of_change, equation.scale = scale;
                         for (Entry& e : equation.row) e.weight *= cell.box.w;
                     }
                     equations_.push_back(std::move(equation));
@@ -310,7 +328,8 @@ class Fitter {
         for (std::size_t s = 0; s < measured_.size(); ++s) {
             if (!measured_[s]) continue;
             // A change that is all noise, as beside a wall, is no place to start at.
-            const float certain = side_[s] * weight_of_change(*measured_[s], side_[s]) / kMostOfChange;
+            const float certain = believed(*measured_[s], side_[s]) * side_[s] *
+                                  weight_of_change(*measured_[s], side_[s]) / kMostOfChange;
             for (std::size_t part = 0; part < 4; ++part)
                 for (std::size_t i = 0; i < columns; ++i)
                     x(Eigen::Index(4 * s + part), Eigen::Index(i)) =

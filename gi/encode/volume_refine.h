@@ -12,10 +12,13 @@
 
 namespace daylit {
 
+/// Planes that irradiance is judged on: those of the six axes.
+inline constexpr std::size_t kJudgedSides = 6;
+
 /// A sample of light at a place. Several numbers of one kind follow one another, so that they are blended alike.
 struct VolumeSample {
     std::vector<float> light;   // [part 4][numbers]: what is encoded; parts are the value and its change along x, y, z
-    std::vector<float> judged;  // [part 4][functionals]: irradiance on several planes at several hours, lux
+    std::vector<float> judged;  // [part 4][functionals]: irradiance over exposure, [kJudgedSides][hour]
     std::vector<float> noise;   // [functionals]: standard error of the values
     float change_noise = 0.0f;  // standard error of the change per metre, over that of the value; metres^-1
     float nearness = 1e9f;      // harmonic mean distance of what is seen, metres
