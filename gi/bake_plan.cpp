@@ -17,8 +17,10 @@ constexpr double kPreviewRays = 48, kPreviewError = 0.10;
 // On top, for texels whose noise is largest: a share of those.
 constexpr double kMoreRays = 2.0 / 3.0;
 constexpr int kFewestRays = 32, kMostRays = 1024;
-// Samples of a volume look at the whole sphere and are averaged with few neighbours.
-constexpr int kRaysOfTexelsPerSample = 3;
+// Samples of a volume look at the whole sphere and are averaged with few neighbours. A bright window is a hundredth of
+// it: of 144 rays one or two meet it, and samples side by side differ by half of their light.
+constexpr double kPreviewSampleRays = 576;
+constexpr int kFewestSampleRays = 96, kMostSampleRays = 3072;
 constexpr double kPreviewCells = 2000, kMostCells = 20000;
 // Below it the sun adds nothing to the night's own light (engine/scene/sky.cpp draws no sky there).
 constexpr double kDeepNight = -20.0 * kDegree;
@@ -34,13 +36,18 @@ int rays_per_texel(double error) {
     return std::clamp(int(rays / 16.0 + 0.5) * 16, kFewestRays, kMostRays);
 }
 
+int rays_per_sample(double error) {
+    const double rays = kPreviewSampleRays * std::sqrt(kPreviewError / error);
+    return std::clamp(int(rays / 16.0 + 0.5) * 16, kFewestSampleRays, kMostSampleRays);
+}
+
 VolumeSettings volume_settings(const BakeSettings& settings) {
     VolumeSettings result = settings.volume;
     const double finer = kPreviewError / settings.error;
     if (result.error <= 0.0f) result.error = float(std::clamp(0.8 * settings.error, 0.03, 0.2));
     if (result.most_cells == 0)
         result.most_cells = std::size_t(settings.tuning.cells * std::clamp(kPreviewCells * finer, 500.0, kMostCells));
-    if (result.rays == 0) result.rays = kRaysOfTexelsPerSample * rays_per_texel(settings.error);
+    if (result.rays == 0) result.rays = rays_per_sample(settings.error);
     result.seed = settings.seed;
     return result;
 }
