@@ -78,7 +78,8 @@ void bake_volume(const SolvedDay& solved, const Progress& progress, Baked& baked
     const LeavingLight leaving = solved.leaving();
     const LightBasis basis = light_basis(solved.day.basis);
     const VolumeEncoder encoder(input.scene, solved.reachable, solved.gather, solved.hits, basis, leaving,
-                                solved.moments, input.plan.volume_settings, {.dropped = 0.1 * input.settings.error});
+                                solved.moments, input.plan.volume_settings,
+                                {.dropped = kVolumeDropped * input.settings.error});
     EncodedVolume encoded = encoder.encode(input.plan.volume_settings, {progress, 0.9, 1.0});
     if (encoded.volume.tree.empty()) {
         leave_out(baked.plan, "volume", "but no free space is reached by cameras, things that move or open air");

@@ -142,7 +142,7 @@ StudyResult compare_volume_modes(const BakeSettings& base, const Judges& judges,
     VolumeSettings plan = input.plan.volume_settings;
     plan.rays *= kMoreRays;
     const VolumeEncoder encoder(input.scene, solved.reachable, solved.gather, solved.hits, basis, leaving,
-                                solved.moments, plan, {.dropped = 0.1 * settings.error}, true);
+                                solved.moments, plan, {.dropped = kVolumeDropped * settings.error}, true);
     const LightModel& light = judges.level.light;
     const PointTruth gathered = gather_at(encoder, basis, light, judges.space);
 

@@ -18,7 +18,9 @@ namespace daylit {
 namespace {
 
 constexpr std::size_t kNumbers = glsl::kVolumeNumbers;
-constexpr int kPilots = 400;  // samples that the basis is chosen by
+constexpr int kPilots = 400;  // samples that the basis is chosen by,
+// with at least so many rays: what noise adds to their light would ask for components, in place of light that is there.
+constexpr int kPilotRays = 1024;
 constexpr std::size_t kJudgedMoments = 6;
 // Far from the end of halves (65504), and far above their smallest normal number (6e-5).
 constexpr float kLargestHalf = 16384.0f, kFullHalf = 65504.0f;
@@ -83,8 +85,9 @@ std::vector<Rgb> pilot_rows(const ProbeGather& gather, const FreeSpace& space, c
     }
     std::vector<Rgb> rows(places.size() * kSides.size() * components, Rgb(0.0f));
     tbb::parallel_for(std::size_t(0), places.size(), [&](std::size_t p) {
-        const ProbeLight light =
-            gather.at(places[p], p, {.rays = settings.rays, .change = ProbeChange::None, .seed = settings.seed + 1});
+        const ProbeLight light = gather.at(
+            places[p], p,
+            {.rays = std::max(settings.rays, kPilotRays), .change = ProbeChange::None, .seed = settings.seed + 1});
         const std::vector<float> mean = mean_of_halves(light);
         for (std::size_t side = 0; side < kSides.size(); ++side) {
             const glsl::Sh9 lobe = glsl::sh_irradiance_weights(kSides[side]);
