@@ -3,8 +3,8 @@
 // hits, which make one big sparse matrix, are applied to all hours as columns; bounces are repeated application.
 // day_columns.h says what the columns are, day_solution.h how the result is kept.
 //
-// In this form gloss reflects like Lambert with its whole albedo, and a texel reflects with its mean albedo, and under a
-// normal map as much less as its normals lean.
+// In this form gloss reflects like Lambert with its whole albedo; a texel reflects with its mean albedo, under a normal
+// map as much less as its normals lean.
 #include <array>
 #include <cstdint>
 #include <span>
