@@ -426,17 +426,20 @@ TEST_F(RendererTest, only_tiles_in_view_are_relit_gl) {
     Renderer renderer(scene, &baked);
     renderer.set_lighting({{}, {Image(1, 1)}, {.clear = 1.0f}});
     const View left = look_at({-6, 3, 0.1f}, {-6, 0, 0}, 0.5f), right = look_at({6, 3, 0.1f}, {6, 0, 0}, 0.5f);
+    std::string why;
     const auto draw = [&](const View& view, double hour) {
         FrameSettings frame = frame_of(view, 8, 8, Layer::Lightmap);
         frame.hour = hour;
-        const FrameReport report = renderer.draw(frame);
-        return pass(report, "relight").triangles;
+        const PassReport relight = pass(renderer.draw(frame), "relight");
+        why = relight.why;
+        return relight.triangles;
     };
     const auto shown = [&] { return renderer.read_radiance().at(3, 3).g; };
     EXPECT_EQ(draw(left, 12.0), 2);
     EXPECT_LT(relative(shown(), 1280.0), 1e-5);
     EXPECT_EQ(draw(left, 12.0), 0);
     EXPECT_EQ(draw(right, 12.0), 2);
+    EXPECT_EQ(why, "surfaces came into view");
     EXPECT_LT(relative(shown(), 2560.0), 1e-5);
     EXPECT_EQ(draw(left, 12.0), 0);
     EXPECT_EQ(draw(left, 18.0), 2);

@@ -198,10 +198,12 @@ void resolve(const GatherScene& scene, GatherHits& hits) {
 GatherScene gather_scene(const RayScene& rays, const Atlas& atlas, const Texels& texels,
                          std::span<const PlacedLight> lamps) {
     GatherScene scene{rays, atlas, texels, lamps, std::vector<Rgb>(texels.count()), std::vector<float>(texels.count())};
-    std::vector<float> evenness;
-    for (const Material& material : rays.scene().materials) evenness.push_back(mean_cosine(rays.scene(), material));
     const WorldMesh& mesh = rays.mesh();
     const StageProgress silent{Progress{}};
+    const std::vector<Material>& materials = rays.scene().materials;
+    std::vector<float> evenness(materials.size());
+    for_each_parallel(
+        materials.size(), silent, [&](std::size_t m) { evenness[m] = mean_cosine(rays.scene(), materials[m]); }, 1);
     for_each_parallel(texels.count(), silent, [&](std::size_t i) {
         const auto points = texels.points_of(i);
         Rgb sum(0.0f);

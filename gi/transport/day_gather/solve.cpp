@@ -187,15 +187,16 @@ class Solver {
             const float* project = project_.data() + (arc.first + k) * changing;
             for (std::size_t i = 0; i < changing; ++i) sun[i] += arc.values[k] * project[i];
         }
+        const Rgb straight = of_straight(r), all_around = of_all_around(r);
         for (std::size_t i = 0; i < changing; ++i) {
-            row[i] = of_straight(r) * sun[i];
-            if (!direct_.suns.empty()) row[i] += of_straight(r) * project_[i] * direct_.suns[r];
+            row[i] = straight * sun[i];
+            if (!direct_.suns.empty()) row[i] += straight * project_[i] * direct_.suns[r];
         }
         const std::size_t evening = basis.component_of(StillPart::Evening),
                           lamps = basis.component_of(StillPart::Lamps);
         const ByLit& emission = hits_.emission[r];
-        row[evening] = of_straight(r) * lamps_[r].evening + of_all_around(r) * emission.evening;
-        row[lamps] = of_straight(r) * lamps_[r].always + of_all_around(r) * emission.always;
+        row[evening] = straight * lamps_[r].evening + all_around * emission.evening;
+        row[lamps] = straight * lamps_[r].always + all_around * emission.always;
         if (r < scene_.texels.count()) {
             solution_.texels[r * basis.components + evening] = emission.evening;
             solution_.texels[r * basis.components + lamps] = emission.always;
