@@ -56,7 +56,7 @@ std::vector<long> seconds_of_day(const DayOptions& options, Target target) {
     return times;
 }
 
-std::string clock_text(long seconds, const char* separator) {
+std::string time_text(long seconds, const char* separator) {
     char text[32];
     const int minutes = int(seconds / 60 % 60);
     if (seconds % 60 == 0) {
@@ -104,7 +104,7 @@ nlohmann::ordered_json write_sheet(const DayOptions& options, const std::vector<
     ContactSheet sheet(int(times.size()), size.width, size.height);
     nlohmann::ordered_json frames = nlohmann::ordered_json::array();
     photograph(options, times, [&](const Frame& frame) {
-        sheet.add(frame.shown, clock_text(frame.seconds, ":"));
+        sheet.add(frame.shown, time_text(frame.seconds, ":"));
         frames.push_back(frame_json(frame));
     });
     write_image(options.output, sheet.image());
@@ -118,9 +118,9 @@ nlohmann::ordered_json write_frames(const DayOptions& options, const std::vector
     ContactSheet sheet(int(times.size()), size.width, size.height);
     nlohmann::ordered_json frames = nlohmann::ordered_json::array();
     photograph(options, times, [&](const Frame& frame) {
-        const std::filesystem::path file = folder / (clock_text(frame.seconds, "h") + ".png");
+        const std::filesystem::path file = folder / (time_text(frame.seconds, "h") + ".png");
         write_image(file, frame.shown);
-        sheet.add(frame.shown, clock_text(frame.seconds, ":"));
+        sheet.add(frame.shown, time_text(frame.seconds, ":"));
         frames.push_back(frame_json(frame));
         frames.back()["file"] = file.string();
     });

@@ -150,7 +150,7 @@ StudyResult compare_volume_modes(const BakeSettings& base, const Judges& judges,
     const std::vector<VolumeModePoint> modes = volume_modes();
     std::map<std::tuple<VolumeBlend, bool, std::size_t>, IrradianceVolume> made;  // modes that differ in bands share
     for (std::size_t m = 0; m < modes.size(); ++m) {
-        const VolumeMode& mode = modes[m].mode;
+        const VolumeScheme& mode = modes[m].mode;
         const std::vector<VolumeSettings> sizes = volume_sizes(mode, plan, encoder.roots());
         for (std::size_t i = 0; i < sizes.size(); ++i) {
             const double share = (double(m) + double(i) / double(sizes.size())) / double(modes.size());

@@ -10,7 +10,7 @@
 namespace daylit {
 namespace {
 
-constexpr double kWhite = 100.0;  // cd/m^2
+constexpr double kWhiteLuminance = 100.0;  // cd/m^2
 constexpr int kLevels = 8, kBands = kLevels - 2;
 constexpr double kLowestElevation = 1.0, kHighestElevation = 10.0;  // of the threshold by masking
 
@@ -44,7 +44,7 @@ Plane blurred(const Plane& in, int width, int height, int spacing) {
 
 std::array<Plane, kLevels> luminance_pyramid(const Image& image) {
     std::array<Plane, kLevels> levels;
-    for (const Rgb& pixel : image.pixels) levels[0].push_back(float(kWhite) * luminance(pixel));
+    for (const Rgb& pixel : image.pixels) levels[0].push_back(float(kWhiteLuminance) * luminance(pixel));
     for (int i = 1; i < kLevels; ++i) {
         levels[std::size_t(i)] = blurred(levels[std::size_t(i - 1)], image.width, image.height, 1 << (i - 1));
     }

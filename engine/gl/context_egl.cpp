@@ -55,7 +55,7 @@ const Egl& egl() {
     return loaded;
 }
 
-std::string error_text() {
+std::string egl_error_text() {
     std::ostringstream text;
     text << "EGL error 0x" << std::hex << egl().get_error();
     return text.str();
@@ -113,13 +113,13 @@ class EglContext : public GlContext {
         for (const EGLDisplay display : candidate_displays()) {
             if (display == EGL_NO_DISPLAY || !egl().initialize(display, nullptr, nullptr) ||
                 !egl().bind_api(EGL_OPENGL_API)) {
-                reason = error_text();
+                reason = egl_error_text();
                 continue;
             }
             context_ = create_context(display, options.debug);
             display_ = display;
             if (context_ != EGL_NO_CONTEXT) return;
-            reason = error_text();
+            reason = egl_error_text();
         }
         throw Error("EGL", "no OpenGL 4.5 core context without a surface: " + reason + "; try --context osmesa");
     }
@@ -133,7 +133,7 @@ class EglContext : public GlContext {
     void bind() override {
         egl().bind_api(EGL_OPENGL_API);
         if (!egl().make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
-            throw Error("EGL", "its context cannot be made current: " + error_text());
+            throw Error("EGL", "its context cannot be made current: " + egl_error_text());
         }
     }
     void unbind() noexcept override { egl().make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }

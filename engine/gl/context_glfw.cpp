@@ -7,7 +7,7 @@
 namespace daylit {
 namespace {
 
-std::string error_text() {
+std::string glfw_error_text() {
     const char* text = nullptr;
     glfwGetError(&text);
     return text ? text : "unknown reason";
@@ -22,7 +22,7 @@ class GlfwLibrary {
   private:
     GlfwLibrary() {
         if (!glfwInit()) {
-            throw Error("GLFW", "no display to open a window on (" + error_text() + "); EGL and OSMesa need none");
+            throw Error("GLFW", "no display to open a window on (" + glfw_error_text() + "); EGL and OSMesa need none");
         }
     }
     ~GlfwLibrary() { glfwTerminate(); }
@@ -45,7 +45,8 @@ class GlfwContext : public GlContext {
         glfwWindowHint(GLFW_STENCIL_BITS, 0);
         window_ = glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr);
         if (!window_) {
-            throw Error("GLFW", "no window with OpenGL 4.5 core (" + error_text() + "); try --context egl or osmesa");
+            throw Error("GLFW",
+                        "no window with OpenGL 4.5 core (" + glfw_error_text() + "); try --context egl or osmesa");
         }
     }
     ~GlfwContext() override {
@@ -59,7 +60,7 @@ class GlfwContext : public GlContext {
     void bind() override {
         glfwMakeContextCurrent(window_);
         if (glfwGetCurrentContext() != window_) {
-            throw Error("GLFW", "its context cannot be made current (" + error_text() + ")");
+            throw Error("GLFW", "its context cannot be made current (" + glfw_error_text() + ")");
         }
     }
     void unbind() noexcept override { glfwMakeContextCurrent(nullptr); }

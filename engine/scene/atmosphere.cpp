@@ -13,13 +13,13 @@ namespace {
 
 // ---- Spectra: 16 bands of 20 nm from 380 to 700 nm. ----
 
-constexpr int kBands = 16;
+constexpr int kSpectralBands = 16;
 constexpr double kFirstBand = 380.0, kBandWidth = 20.0;  // nm
 
 // Four bands side by side, by the vector types of GCC and Clang: the loops over a spectrum are all the time there is.
 using Lanes [[gnu::vector_size(16)]] = float;
 using IntLanes [[gnu::vector_size(16)]] = std::int32_t;
-constexpr int kLanes = kBands / 4;
+constexpr int kLanes = kSpectralBands / 4;
 
 struct Spectrum {
     Lanes v[kLanes] = {};
@@ -61,9 +61,9 @@ std::array<double, 3> color_matching(double nm) {
 }
 
 /// Linear Rec. 709 in lux that the unattenuated sun has in each band; 683 lm/W.
-std::array<Rgb, kBands> solar_bands() {
-    std::array<Rgb, kBands> bands{};
-    for (int band = 0; band < kBands; ++band) {
+std::array<Rgb, kSpectralBands> solar_bands() {
+    std::array<Rgb, kSpectralBands> bands{};
+    for (int band = 0; band < kSpectralBands; ++band) {
         double xyz[3] = {0, 0, 0};
         for (int i = 0; i < int(kBandWidth); ++i) {
             const double nm = kFirstBand + band * kBandWidth + i + 0.5;
@@ -78,9 +78,9 @@ std::array<Rgb, kBands> solar_bands() {
     return bands;
 }
 
-Rgb color_of(const Spectrum& share_of_sunlight, const std::array<Rgb, kBands>& bands) {
+Rgb color_of(const Spectrum& share_of_sunlight, const std::array<Rgb, kSpectralBands>& bands) {
     Rgb sum(0.0f);
-    for (int i = 0; i < kBands; ++i) sum += bands[std::size_t(i)] * share_of_sunlight.at(i);
+    for (int i = 0; i < kSpectralBands; ++i) sum += bands[std::size_t(i)] * share_of_sunlight.at(i);
     return sum;
 }
 
@@ -129,7 +129,7 @@ Medium medium_of(double turbidity) {
     // Preetham et al. 1999, appendix A.1: Angstrom's turbidity from the turbidity.
     const double beta = std::max(0.0, 0.04608 * turbidity - 0.04586);
     Medium medium;
-    for (int i = 0; i < kBands; ++i) {
+    for (int i = 0; i < kSpectralBands; ++i) {
         const double um = band_centre(i) * 1e-3;
         const double u2 = 1.0 / (um * um);
         // Hansen and Travis 1974, equation 2.29: Rayleigh optical thickness of the whole air at 1013 mbar.
@@ -279,7 +279,7 @@ struct Spacing {
 struct Atmosphere::Tables {
     Medium medium;
     Columns columns;
-    std::array<Rgb, kBands> bands = solar_bands();
+    std::array<Rgb, kSpectralBands> bands = solar_bands();
     std::vector<Spectrum> multiple;  // mean radiance of all higher orders, per unit of the sun's irradiance
 
     explicit Tables(double turbidity)

@@ -19,7 +19,7 @@ struct NodeMove {
 };
 
 struct Pose {
-    std::vector<Mat4> world_from_node;              // one per Scene::nodes; identity for nodes outside the default scene
+    std::vector<Mat4> world_from_node;  // one per Scene::nodes; identity for nodes outside the default scene
     std::vector<std::vector<float>> morph_weights;  // one per node; empty when its mesh has no morph targets
 };
 
@@ -37,11 +37,11 @@ enum class Part : std::uint8_t { Static, Dynamic, All };
 /// counts agree with the file.
 struct WorldMesh {
     std::vector<Vec3> positions;
-    std::vector<Vec3> normals;            // unit
-    std::vector<Vec4> tangents;           // xyz unit and handedness; zero where the primitive has none
+    std::vector<Vec3> normals;             // unit
+    std::vector<Vec4> tangents;            // xyz unit and handedness; zero where the primitive has none
     std::vector<std::array<Vec2, 2>> uvs;  // TEXCOORD_0 and _1 (zero when absent)
-    std::vector<Rgba> colors;             // white when absent
-    std::vector<std::uint32_t> indices;   // 3 per triangle
+    std::vector<Rgba> colors;              // white when absent
+    std::vector<std::uint32_t> indices;    // 3 per triangle
     std::vector<std::uint32_t> materials;  // one per triangle
     std::vector<std::uint32_t> nodes;      // one per triangle
     std::size_t triangle_count() const { return materials.size(); }
@@ -61,7 +61,10 @@ std::vector<PlacedMesh> placed_meshes(const Scene& scene, Part part);
 struct Bounds {
     Vec3 min = Vec3(1e30f), max = Vec3(-1e30f);
     bool empty() const { return min.x > max.x; }
-    void add(const Vec3& p) { min = glm::min(min, p); max = glm::max(max, p); }
+    void add(const Vec3& p) {
+        min = glm::min(min, p);
+        max = glm::max(max, p);
+    }
 };
 Bounds bounds(const WorldMesh& mesh);
 
@@ -103,6 +106,19 @@ struct ViewRay {
     Vec3 origin, direction;
 };
 ViewRay view_ray(const View& view, float x, float y, int width, int height);
+/// The same for many rays of one picture.
+class ViewRays {
+  public:
+    ViewRays(const View& view, int width, int height);
+    ViewRay at(float x, float y) const;
+
+  private:
+    Mat3 world_from_view_;
+    Vec3 eye_;
+    bool orthographic_;
+    float width_, height_;
+    Vec2 half_;  // of the picture: metres where orthographic, else at a metre's distance
+};
 /// clip_from_view with an infinite far plane and reversed depth (1 near, 0 far), for GL_ZERO_TO_ONE clip control.
 Mat4 projection(const View& view, int width, int height);
 

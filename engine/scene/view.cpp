@@ -73,16 +73,24 @@ View overview(const Bounds& bounds) {
     return view;
 }
 
+ViewRays::ViewRays(const View& view, int width, int height)
+    : world_from_view_(glm::transpose(Mat3(view.view_from_world))),
+      eye_(view.eye),
+      orthographic_(view.orthographic),
+      width_(float(width)),
+      height_(float(height)) {
+    const float half = orthographic_ ? 0.5f * view.height : std::tan(0.5f * view.vertical_fov);
+    half_ = Vec2(width_ / height_ * half, half);
+}
+
+ViewRay ViewRays::at(float x, float y) const {
+    const Vec2 on_plane = Vec2(2.0f * x / width_ - 1.0f, 1.0f - 2.0f * y / height_) * half_;
+    if (orthographic_) return {eye_ + world_from_view_ * Vec3(on_plane, 0.0f), world_from_view_ * Vec3(0, 0, -1)};
+    return {eye_, glm::normalize(world_from_view_ * Vec3(on_plane, -1.0f))};
+}
+
 ViewRay view_ray(const View& view, float x, float y, int width, int height) {
-    const float ndc_x = 2.0f * x / float(width) - 1.0f, ndc_y = 1.0f - 2.0f * y / float(height);
-    const float aspect = float(width) / float(height);
-    const Mat3 world_from_view = glm::transpose(Mat3(view.view_from_world));
-    if (view.orthographic) {
-        const Vec3 on_plane(ndc_x * aspect * 0.5f * view.height, ndc_y * 0.5f * view.height, 0.0f);
-        return {view.eye + world_from_view * on_plane, world_from_view * Vec3(0, 0, -1)};
-    }
-    const float tangent = std::tan(0.5f * view.vertical_fov);
-    return {view.eye, glm::normalize(world_from_view * Vec3(ndc_x * aspect * tangent, ndc_y * tangent, -1.0f))};
+    return ViewRays(view, width, height).at(x, y);
 }
 
 Mat4 projection(const View& view, int width, int height) {

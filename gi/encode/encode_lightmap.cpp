@@ -24,7 +24,7 @@ constexpr double kEveningShare = 1.0 / 64.0;
 constexpr Eigen::Index kCheckedEvery = 3;  // texels of a tile on which its error is measured
 
 /// What all tiles share.
-struct Judge {
+struct TileJudge {
     const LightRows& rows;
     const TiltRows& tilts;
     const JudgedBasis& basis;
@@ -57,7 +57,8 @@ struct CodedTile {
     Vector wrong, all;  // per moment: sums of squares over the texels that were checked
 };
 
-TileRows tile_rows(const Judge& judge, const DayLightmap& map, std::span<const std::uint32_t> row_of_pixel, int tile) {
+TileRows tile_rows(const TileJudge& judge, const DayLightmap& map, std::span<const std::uint32_t> row_of_pixel,
+                   int tile) {
     TileRows result;
     const int x0 = tile % map.tiles_across() * map.kTileSide, y0 = tile / map.tiles_across() * map.kTileSide;
     for (int y = y0; y < std::min(y0 + map.kTileSide, map.height); ++y)
@@ -147,7 +148,7 @@ struct Patterns {
 /// The first patterns of the tile, as many as keep its worst moment's error below what is asked.
 /// gram   of all rows
 /// seen   what the tile's light is judged against at each moment
-Patterns principal_patterns(const Judge& judge, const TileRows& tile, const Matrix& gram, const Vector& seen,
+Patterns principal_patterns(const TileJudge& judge, const TileRows& tile, const Matrix& gram, const Vector& seen,
                             const LightmapSettings& settings) {
     const Eigen::Index q = judge.components(), n = tile.light.rows();
     Matrix judged = judge.parts;
@@ -192,7 +193,7 @@ std::int16_t rounded(double value, int most) {
 }
 
 /// Rounds texels and patterns so that each pattern's rounding counts as little as asked when it shines most.
-CodedTile quantise(const Judge& judge, const TileRows& tile, const Patterns& patterns, const Vector& seen,
+CodedTile quantise(const TileJudge& judge, const TileRows& tile, const Patterns& patterns, const Vector& seen,
                    const LightmapSettings& settings) {
     CodedTile coded;
     coded.patterns = std::size_t(patterns.values.cols());
@@ -218,7 +219,7 @@ CodedTile quantise(const Judge& judge, const TileRows& tile, const Patterns& pat
 }
 
 /// What the tile's bytes show against the truth.
-void measure(const Judge& judge, const TileRows& tile, const Vector& seen, CodedTile& coded) {
+void measure(const TileJudge& judge, const TileRows& tile, const Vector& seen, CodedTile& coded) {
     const Eigen::Index q = judge.components(), k = Eigen::Index(coded.patterns);
     Matrix light(k, 3 * q);
     for (Eigen::Index p = 0; p < k; ++p)
@@ -239,7 +240,7 @@ void measure(const Judge& judge, const TileRows& tile, const Vector& seen, Coded
     coded.all = Vector::Constant(seen.size(), double(3 * n));
 }
 
-CodedTile encode_tile(const Judge& judge, const TileRows& tile, const LightmapSettings& settings) {
+CodedTile encode_tile(const TileJudge& judge, const TileRows& tile, const LightmapSettings& settings) {
     if (tile.count() == 0 || judge.components() == 0) return {};
     Matrix gram = gram_of(tile.texels());
     const Vector squares = moment_squares(gram, judge.truth);
@@ -294,12 +295,12 @@ EncodedLightmap encode_lightmap(DayLightmap map, const LightRows& rows, const Ti
                                 std::span<const std::uint32_t> row_of_pixel, const LightmapSettings& settings) {
     JudgedBasis basis = judge_basis(rows, settings.basis);
     basis.stored = rounded(std::move(basis.stored));
-    const Judge judge{rows,
-                      tilts,
-                      basis,
-                      moment_weights(basis.dense, rows.moments),
-                      moment_weights(basis.stored, rows.moments),
-                      part_weights(basis.dense, rows.moments)};
+    const TileJudge judge{rows,
+                          tilts,
+                          basis,
+                          moment_weights(basis.dense, rows.moments),
+                          moment_weights(basis.stored, rows.moments),
+                          part_weights(basis.dense, rows.moments)};
     std::vector<TileRows> tiles(map.tiles());
     std::vector<CodedTile> coded(map.tiles());
     tbb::parallel_for(std::size_t(0), tiles.size(), [&](std::size_t t) {

@@ -110,9 +110,9 @@ std::vector<Moment> judged_moments(std::span<const Moment> moments) {
 
 /// Luminance of irradiance on six sides at several moments, over exposure: [side][moment], as sums over light's
 /// numbers.
-class Judge {
+class VolumeJudge {
   public:
-    Judge(const LightBasis& basis, std::span<const Moment> moments) : components_(std::size_t(basis.components)) {
+    VolumeJudge(const LightBasis& basis, std::span<const Moment> moments) : components_(std::size_t(basis.components)) {
         for (const Moment& m : moments) {
             weights_.push_back(basis.weights(m.scales, m.hour));
             for (Rgb& w : weights_.back()) w *= Vec3(0.2126f, 0.7152f, 0.0722f) / float(m.exposure);
@@ -145,7 +145,7 @@ class Judge {
     std::vector<std::vector<Rgb>> weights_;
 };
 
-VolumeSample sample(const ProbeGather& gather, const Turn& turn, const Judge& judge, const Vec3& place,
+VolumeSample sample(const ProbeGather& gather, const Turn& turn, const VolumeJudge& judge, const Vec3& place,
                     std::uint64_t key, const VolumeSettings& settings) {
     const ProbeLight light = gather.at(place, key, {.rays = settings.rays, .seed = settings.seed});
     VolumeSample result;
@@ -178,7 +178,7 @@ VolumeSample sample(const ProbeGather& gather, const Turn& turn, const Judge& ju
 /// Takes away ringing (Sloan 2008): coefficients of band l over 1 + lambda l^2 (l + 1)^2, with the smallest lambda that
 /// keeps irradiance on every side at every judged moment from falling below zero by more than a share of the brightest
 /// side's: what little is left, look-ups cut at zero, while a wider window would dim the bright side. Returns lambda.
-float window(float* record, std::size_t components, const Judge& judge) {
+float window(float* record, std::size_t components, const VolumeJudge& judge) {
     const std::size_t numbers = kNumbers * components;
     std::vector<float> tried(record, record + numbers);
     float lambda = 0.0f;
@@ -242,7 +242,7 @@ void quantise(const std::vector<float>& records, IrradianceVolume& volume) {
 /// RMS over mean of irradiance at all places that were measured inside cells.
 double measure(const OctreeCells& cells, const RefinedVolume& refined, const IrradianceVolume& volume,
                const LightBasis& dense, std::span<const Moment> moments) {
-    const Judge stated(dense, moments);
+    const VolumeJudge stated(dense, moments);
     double wrong = 0.0, mean = 0.0;
     std::size_t count = 0;
     for (std::size_t m = 0; m < moments.size(); ++m) {
@@ -322,7 +322,7 @@ struct VolumeEncoder::State {
     std::vector<Rgb> pilots;
     JudgedBasis basis;
     std::vector<Moment> judged;
-    Judge judge;
+    VolumeJudge judge;
     Turn turn;
     std::unique_ptr<KeptSamples> kept;
 };

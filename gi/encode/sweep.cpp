@@ -53,7 +53,7 @@ std::vector<VolumeModePoint> volume_modes() {
     return all;
 }
 
-std::vector<VolumeSettings> volume_sizes(const VolumeMode& mode, const VolumeSettings& plan,
+std::vector<VolumeSettings> volume_sizes(const VolumeScheme& mode, const VolumeSettings& plan,
                                          const std::array<int, 3>& roots) {
     std::vector<VolumeSettings> sizes;
     VolumeSettings settings = plan;

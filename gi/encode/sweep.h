@@ -32,14 +32,14 @@ std::vector<SweepPoint> volume_sweep(const BakeSettings& base);
 /// Ways to keep a volume and look it up; the first is the runtime's.
 struct VolumeModePoint {
     std::string axis;
-    VolumeMode mode;
+    VolumeScheme mode;
 };
 std::vector<VolumeModePoint> volume_modes();
 
 /// Sizes at which a mode is compared, largest first: of octrees, shares of the plan's number of cells, from four times
 /// as many where records have no changes; of grids, levels, smallest first. plan    with nothing left to follow from
 /// the error (BakePlan::volume_settings) roots   along x, y, z (VolumeEncoder::roots)
-std::vector<VolumeSettings> volume_sizes(const VolumeMode& mode, const VolumeSettings& plan,
+std::vector<VolumeSettings> volume_sizes(const VolumeScheme& mode, const VolumeSettings& plan,
                                          const std::array<int, 3>& roots);
 
 }  // namespace daylit

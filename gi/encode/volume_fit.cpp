@@ -50,10 +50,6 @@ struct Equation {
     float scale = 1.0f;            // of the values
 };
 
-Vec3 t_of(int place) {
-    return 0.5f * Vec3(place % 3, place / 3 % 3, place / 9);
-}
-
 class Fitter {
   public:
     Fitter(const OctreeCells& cells, const RefinedVolume& refined, std::size_t numbers, VolumeBlend blend)

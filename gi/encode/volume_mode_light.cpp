@@ -22,7 +22,7 @@ int coefficients_of(VolumeBands bands) {
 }
 
 /// Numbers of a record's parts that are kept, all components, without what a blend does not use.
-Bytes code_kept(const IrradianceVolume& volume, const VolumeMode& mode) {
+Bytes code_kept(const IrradianceVolume& volume, const VolumeScheme& mode) {
     ByteWriter w;
     const std::size_t count = volume.tree.samples, components = std::size_t(volume.basis.components);
     const auto kept = 3 * std::size_t(coefficients_of(mode.bands));
@@ -80,7 +80,7 @@ Rgb zh3_irradiance(const glsl::VolumeSh& sh, const Vec3& normal) {
     return glm::max(linear + kThirdBand * kZonal * (3.0f * cosine * cosine - 1.0f) * zonal, Rgb(0.0f));
 }
 
-double stored_bytes(const IrradianceVolume& volume, const VolumeMode& mode) {
+double stored_bytes(const IrradianceVolume& volume, const VolumeScheme& mode) {
     double bytes = double(code_section("VOSH", code_kept(volume, mode)).stored.size());
     // What the fourth band would hold is not known here; that it takes as much as the others do is.
     if (mode.bands == VolumeBands::Four) bytes = std::round(bytes * 16.0 / 9.0);
@@ -90,7 +90,7 @@ double stored_bytes(const IrradianceVolume& volume, const VolumeMode& mode) {
     return bytes;
 }
 
-VolumeModeLight::VolumeModeLight(const IrradianceVolume& volume, const VolumeMode& mode, std::span<const Rgb> weights)
+VolumeModeLight::VolumeModeLight(const IrradianceVolume& volume, const VolumeScheme& mode, std::span<const Rgb> weights)
     : volume_(volume), mode_(mode), numbers_(3 * coefficients_of(mode.bands)) {
     std::vector<Vec4> all = volume.records(weights);
     fill_hanging(volume.tree, mode.blend, all);

@@ -18,7 +18,7 @@ enum class VolumeBands {
           // that of three and only bytes are more
 };
 
-struct VolumeMode {
+struct VolumeScheme {
     VolumeBlend blend = VolumeBlend::Adini;
     VolumeBands bands = VolumeBands::Three;
     bool grid = false;  // all cells of one size, found without a tree
@@ -26,14 +26,14 @@ struct VolumeMode {
 
 /// Bytes as the file's sections would keep it: records of the bands and, where the blend uses them, their changes; the
 /// tree but for grids, of which neither cells nor walls are counted.
-double stored_bytes(const IrradianceVolume& volume, const VolumeMode& mode);
+double stored_bytes(const IrradianceVolume& volume, const VolumeScheme& mode);
 
 /// A volume at one moment.
 class VolumeModeLight {
   public:
     /// volume   encoded for the mode's blend (VolumeSettings::blend), not empty; must outlive this
     /// throws Error when a grid is asked for and cells differ in size
-    VolumeModeLight(const IrradianceVolume& volume, const VolumeMode& mode, std::span<const Rgb> weights);
+    VolumeModeLight(const IrradianceVolume& volume, const VolumeScheme& mode, std::span<const Rgb> weights);
 
     /// As VolumeLight::irradiance(), lux.
     Rgb irradiance(const Vec3& place, const Vec3& normal) const;
@@ -43,7 +43,7 @@ class VolumeModeLight {
     void lay_table();
 
     const IrradianceVolume& volume_;
-    VolumeMode mode_;
+    VolumeScheme mode_;
     int numbers_ = 0;            // coefficients * 3
     std::vector<float> values_;  // [record][number]
     std::vector<Vec4> records_;  // [record][number]; one of the two is empty

@@ -35,10 +35,6 @@ bool is_test(int place) {
     return (place % 3 == 1) + (place / 3 % 3 == 1) + (place / 9 == 1) >= 2;
 }
 
-Vec3 t_of(int place) {
-    return 0.5f * Vec3(place % 3, place / 3 % 3, place / 9);
-}
-
 /// A leaf as it was tested.
 struct Tested {
     RefinedLeaf leaf;

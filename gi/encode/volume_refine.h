@@ -39,6 +39,12 @@ struct VolumePlaces {
 
 /// The 27 places of a leaf, x fastest: corners, middles of edges and faces, the centre.
 inline constexpr int kLeafPlaces = 27;
+
+/// Where in the leaf a place is, [0, 1].
+inline Vec3 t_of(int place) {
+    return 0.5f * Vec3(place % 3, place / 3 % 3, place / 9);
+}
+
 struct RefinedLeaf {
     std::array<std::uint32_t, kLeafPlaces> place{};  // index into places
     std::array<std::int8_t, kLeafPlaces> side{};     // -1: of no cell; 0: of the leaf or its front; 1: of its back

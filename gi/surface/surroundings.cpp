@@ -16,7 +16,7 @@ namespace {
 constexpr int kLooks = 8;            // rays from a point
 constexpr int kPanes = 8;            // of glass that a ray goes through, straight on
 constexpr float kCovered = 0.01f;    // of the spacing
-constexpr float kMinCosine = 0.1f;   // of a ray with what it meets, in gradients
+constexpr float kMinSlant = 0.1f;    // of a ray with what it meets, in gradients
 constexpr float kMostPoints = 1e7f;  // of a triangle
 
 /// From one point.
@@ -77,7 +77,7 @@ class Onlooker {
             const double inverse = 1.0 / double(std::max(hit->distance, spacing_));
             outlook.nearness += inverse / kLooks;
             // A plane with this normal at distance r = ((q - p).n) / (w.n): the gradient of 1 / r by p.
-            const double slant = std::copysign(std::max(std::abs(cosine), kMinCosine), cosine);
+            const double slant = std::copysign(std::max(std::abs(cosine), kMinSlant), cosine);
             outlook.gradient += inverse * inverse / (slant * kLooks) * glm::dvec3(hit->normal);
         }
         outlook.gradient -= glm::dot(outlook.gradient, glm::dvec3(normal)) * glm::dvec3(normal);

@@ -62,7 +62,7 @@ Vec3 random_direction(Random& random) {
     return Vec3(r * std::cos(around), r * std::sin(around), z);
 }
 
-double rms(const IrradianceVolume& volume, const VolumeMode& mode, std::size_t coefficients = 9) {
+double rms(const IrradianceVolume& volume, const VolumeScheme& mode, std::size_t coefficients = 9) {
     const VolumeModeLight light(volume, mode, volume.basis.weights({}, 12.0));
     Random random(5, 0, 0);
     double sum = 0.0;
@@ -106,7 +106,7 @@ TEST(VolumeModeLight, adini_is_what_the_runtime_does) {
 
 TEST(VolumeModeLight, a_grid_is_its_octree_found_without_a_tree) {
     const IrradianceVolume volume = volume_on(octree_of(2));
-    const VolumeMode octree{.blend = VolumeBlend::Trilinear}, grid{.blend = VolumeBlend::Trilinear, .grid = true};
+    const VolumeScheme octree{.blend = VolumeBlend::Trilinear}, grid{.blend = VolumeBlend::Trilinear, .grid = true};
     EXPECT_DOUBLE_EQ(rms(volume, grid), rms(volume, octree));
     EXPECT_LT(stored_bytes(volume, grid), stored_bytes(volume, octree));
     const IrradianceVolume mixed = volume_on(octree_of(1, 0.3f));
@@ -115,7 +115,7 @@ TEST(VolumeModeLight, a_grid_is_its_octree_found_without_a_tree) {
 
 TEST(VolumeModeLight, bands_that_light_does_not_have_are_not_missed) {
     const IrradianceVolume volume = volume_on(octree_of(2), 4);
-    const VolumeMode two{.bands = VolumeBands::Two}, three{};
+    const VolumeScheme two{.bands = VolumeBands::Two}, three{};
     EXPECT_NEAR(rms(volume, two, 4), rms(volume, three, 4), 1e-6);
     EXPECT_GT(rms(volume_on(octree_of(2)), two), 5.0 * rms(volume_on(octree_of(2)), three));
     EXPECT_LT(stored_bytes(volume, two), stored_bytes(volume, three));

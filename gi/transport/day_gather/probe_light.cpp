@@ -5,19 +5,19 @@
 #include <cmath>
 
 #include "gi/transport/day_gather/sequence.h"
+#include "gi/transport/day_gather/streams.h"
 #include "shaders/shared/sh.h"
 
 namespace daylit {
 namespace {
 
-constexpr std::uint64_t kProbeStream = 3;  // apart from the texels' streams 0 to 2
-constexpr float kSphere = 4.0f * kPiF;     // its solid angle
+constexpr float kSphere = 4.0f * kPiF;  // its solid angle
 constexpr float kLeastCosine = 0.05f;
 constexpr float kApart = 0.381966f;  // of a turn, between the halves of a probe's rays: the golden angle
 constexpr int kBatch = 64;           // rays whose rows are multiplied at once
 constexpr std::size_t kCoefficients = glsl::kShCoefficients;
 
-using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using RowMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Even over the sphere: u.x and u.y in [0, 1).
 Vec3 sample_sphere(const Vec2& u) {
@@ -72,13 +72,13 @@ struct ProbeGather::Batch {
         std::copy_n(&row->x, rows.cols(), rows.row(count).data());
         ++count;
     }
-    void flush(Matrix& sum) {
+    void flush(RowMatrix& sum) {
         sum.noalias() += weights.leftCols(count) * rows.topRows(count);
         count = 0;
     }
 
     int parts, count = 0;
-    Matrix weights, rows;
+    RowMatrix weights, rows;
 };
 
 ProbeGather::ProbeGather(const GatherScene& scene, const GatherHits& hits, const LeavingLight& light)
@@ -130,7 +130,7 @@ void ProbeGather::trace(const Vec3& place, std::uint64_t key, const ProbeSetting
     const float solid_angle = kSphere / float(settings.rays / 2);  // of a half's ray
     for (std::size_t half = 0; half < 2; ++half) {
         Batch batch(parts, light_.components);
-        Matrix sum = Matrix::Zero(batch.weights.rows(), batch.rows.cols());
+        RowMatrix sum = RowMatrix::Zero(batch.weights.rows(), batch.rows.cols());
         out.half[half].assign(4 * std::size_t(glsl::kVolumeNumbers) * light_.components, 0.0f);
         // Each half is spread over the whole sphere, between the other's rays.
         const int rays = settings.rays / 2;

@@ -6,6 +6,7 @@
 #include "engine/base/random.h"
 #include "gi/transport/day_gather/places.h"
 #include "gi/transport/day_gather/sequence.h"
+#include "gi/transport/day_gather/streams.h"
 
 namespace daylit {
 namespace {
@@ -13,8 +14,7 @@ namespace {
 constexpr int kSunSamples = 4;
 constexpr int kLampSamples = 2;  // per lamp, where few lamps reach
 constexpr std::size_t kFewLamps = 8;
-constexpr int kManyLampSamples = 16;                      // in all, where many do
-constexpr std::uint64_t kLampStream = 1, kSunStream = 2;  // apart from the gather's stream 0
+constexpr int kManyLampSamples = 16;  // in all, where many do
 
 /// Lux of one lamp at one place, shadow included.
 Rgb lamp_at(const RayScene& rays, const PlacedLight& lamp, const Place& place) {

@@ -8,13 +8,13 @@
 #include "engine/base/random.h"
 #include "gi/transport/day_gather/places.h"
 #include "gi/transport/day_gather/sequence.h"
+#include "gi/transport/day_gather/streams.h"
 
 namespace daylit {
 namespace {
 
-constexpr std::size_t kSamples = 4;      // places on the receiver, each with its own place on the sun's disc
-constexpr double kSparseHours = 1.0;     // between first tests; the samples' tests lie between one another's
-constexpr std::uint64_t kSunStream = 2;  // apart from the gather's stream 0 and the lamps' 1
+constexpr std::size_t kSamples = 4;   // places on the receiver, each with its own place on the sun's disc
+constexpr double kSparseHours = 1.0;  // between first tests; the samples' tests lie between one another's
 constexpr float kUnknown = -1.0f;
 constexpr std::size_t kNone = ~std::size_t(0);
 
@@ -52,9 +52,7 @@ class Arc {
     std::size_t tests() const { return tests_; }
 
   private:
-    Vec3 direction(std::size_t m, std::size_t hour) const {
-        return suns_[hour]->to_world(disc_[m]);
-    }
+    Vec3 direction(std::size_t m, std::size_t hour) const { return suns_[hour]->to_world(disc_[m]); }
 
     /// Hours behind the receiver's horizon need no test.
     void find_facing(std::size_t m) {

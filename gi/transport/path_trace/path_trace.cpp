@@ -48,8 +48,8 @@ int group_size(const PathTraceSettings& settings) {
 }
 
 /// Samples first .. first + count - 1 of one pixel, group by group.
-void add_pixel(Film& film, const Integrator& integrator, const View& view, std::uint64_t seed, int x, int y, int first,
-               int count, int group_size) {
+void add_pixel(Film& film, const Integrator& integrator, const ViewRays& rays, std::uint64_t seed, int x, int y,
+               int first, int count, int group_size) {
     const std::uint64_t receiver = std::uint64_t(y) * std::uint64_t(film.width()) + std::uint64_t(x);
     for (int s = first; s < first + count;) {
         Film::Group group;
@@ -57,8 +57,7 @@ void add_pixel(Film& film, const Integrator& integrator, const View& view, std::
         for (; s < end; ++s) {
             PathRandom random(seed, receiver, std::uint64_t(s), std::uint32_t(group_size));
             const Vec2 place = Vec2(x, y) + random.pair(Net::Pixel);
-            const ViewRay ray = view_ray(view, place.x, place.y, film.width(), film.height());
-            const Integrator::Sample sample = integrator.camera_sample(ray, random);
+            const Integrator::Sample sample = integrator.camera_sample(rays.at(place.x, place.y), random);
             group.add(sample.value, sample.rays);
         }
         film.add(x, y, group);
@@ -67,7 +66,7 @@ void add_pixel(Film& film, const Integrator& integrator, const View& view, std::
 
 /// Adds samples first .. first + count - 1 of every pixel; `first` starts a group. Every pixel belongs to one tile, and
 /// its samples are added in order, so the sums do not depend on the threads.
-void add_round(Film& film, const Integrator& integrator, const View& view, std::uint64_t seed, int first, int count,
+void add_round(Film& film, const Integrator& integrator, const ViewRays& rays, std::uint64_t seed, int first, int count,
                int group_size, ProgressCounter& progress) {
     const int tiles_x = (film.width() + kTile - 1) / kTile, tiles_y = (film.height() + kTile - 1) / kTile;
     tbb::parallel_for(tbb::blocked_range<int>(0, tiles_x * tiles_y, 1), [&](const tbb::blocked_range<int>& range) {
@@ -75,7 +74,7 @@ void add_round(Film& film, const Integrator& integrator, const View& view, std::
             const int x0 = tile % tiles_x * kTile, y0 = tile / tiles_x * kTile;
             const int x1 = std::min(x0 + kTile, film.width()), y1 = std::min(y0 + kTile, film.height());
             for (int y = y0; y < y1 && !progress.stopped(); ++y) {
-                for (int x = x0; x < x1; ++x) add_pixel(film, integrator, view, seed, x, y, first, count, group_size);
+                for (int x = x0; x < x1; ++x) add_pixel(film, integrator, rays, seed, x, y, first, count, group_size);
                 progress.add(double(x1 - x0) * count);
             }
         }
@@ -97,6 +96,7 @@ PathTraceImage path_trace(const RayScene& rays, const Lighting& lighting, std::s
                           const View& view, int width, int height, const PathTraceSettings& settings,
                           const Progress& progress) {
     const Integrator integrator(rays, lighting, lamps, settings);
+    const ViewRays view_rays(view, width, height);
     Film film(width, height);
     const bool to_error = settings.error > 0.0;
     const int group = group_size(settings);
@@ -105,10 +105,12 @@ PathTraceImage path_trace(const RayScene& rays, const Lighting& lighting, std::s
     double error = -1.0;
     while (round > 0) {
         // The total is known only round by round; each report says how much of what is now foreseen is done.
-        ProgressCounter counter(progress ? [&, spent, round](double done) {
-            return progress((spent + done * round) / double(spent + round));
-        } : Progress{}, double(width) * height * round);
-        add_round(film, integrator, view, settings.seed, spent, round, group, counter);
+        ProgressCounter counter(
+            progress
+                ? [&, spent, round](double done) { return progress((spent + done * round) / double(spent + round)); }
+                : Progress{},
+            double(width) * height * round);
+        add_round(film, integrator, view_rays, settings.seed, spent, round, group, counter);
         counter.throw_if_stopped();
         spent += round;
         groups += (round + group - 1) / group;
@@ -116,8 +118,11 @@ PathTraceImage path_trace(const RayScene& rays, const Lighting& lighting, std::s
         const bool enough = !to_error || (error >= 0.0 && error <= settings.error) || spent >= settings.max_spp;
         round = enough ? 0 : next_round(settings, spent, error);
     }
-    return {.radiance = film.mean(spent), .standard_error = film.standard_error(spent, groups), .spp = spent,
-            .relative_error = error, .rays = film.rays()};
+    return {.radiance = film.mean(spent),
+            .standard_error = film.standard_error(spent, groups),
+            .spp = spent,
+            .relative_error = error,
+            .rays = film.rays()};
 }
 
 std::vector<Rgb> path_trace_irradiance(const RayScene& rays, const Lighting& lighting,
