@@ -36,9 +36,9 @@ TestScene table() {
 }
 
 /// The lightmap of a scene under an even sky, looked up on the parallelogram that its first two triangles are.
-class Lit {
+class LitPlate {
   public:
-    explicit Lit(const TestScene& made) : scene_(with_plates(made, {})), mesh_(made.mesh) {
+    explicit LitPlate(const TestScene& made) : scene_(with_plates(made, {})), mesh_(made.mesh) {
         BakeSettings settings = one_hour();
         settings.light.sky = SkySource::Constant, settings.light.sky_radiance = kSky;
         settings.parts = {"lightmap"};
@@ -88,7 +88,7 @@ std::pair<double, double> light_over_truth(float gap) {
     for (int i = 0; i < kPlaces; ++i) {
         const Vec2 panel = place_of_panel(i);
         TestScene made = wall(panel, gap);
-        const Lit lit(made);
+        const LitPlate lit(made);
         for (std::size_t k = 0; k < kAway.size(); ++k)
             for (std::size_t side = 0; side < 4; ++side) {
                 const Vec3 place = beside(panel, kAway[k])[side];
@@ -116,7 +116,7 @@ TEST(Covered, TheWallBesideAPanelThatLiesOnItIsAsBrightAsItIs) {
 
 TEST(Covered, UnderATableItIsAsDarkAsItIs) {
     TestScene made = table();
-    const Lit lit(made);
+    const LitPlate lit(made);
     for (const float x : {1.0f, 1.2f, 1.5f, 2.0f, 2.5f, 3.0f}) {
         const Vec3 place(x, 0, 2);
         EXPECT_NEAR(lit.at(place) / traced(made, place, Vec3(0, 1, 0)), 1.0, 0.15) << x;

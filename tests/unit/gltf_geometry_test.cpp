@@ -14,13 +14,13 @@ namespace {
 
 using test::GltfBuilder;
 
-Scene loaded(const GltfBuilder& builder, const LoadOptions& options = {}) {
+Scene loaded_glb(const GltfBuilder& builder, const LoadOptions& options = {}) {
     const test::TemporaryFolder folder;
     return load_scene(builder.save_glb(folder / "scene.glb"), options);
 }
 
 Primitive only_primitive(const GltfBuilder& builder) {
-    const Scene scene = loaded(builder);
+    const Scene scene = loaded_glb(builder);
     EXPECT_EQ(scene.meshes.size(), 1u);
     return scene.meshes.at(0).primitives.at(0);
 }
@@ -51,7 +51,7 @@ TEST(GltfGeometry, a_triangle_list_drops_what_is_left_over_with_a_note) {
     GltfBuilder builder;
     const int positions = builder.floats("VEC3", kZigzag);
     builder.place_primitive({{"attributes", {{"POSITION", positions}}}});
-    const Scene scene = loaded(builder);
+    const Scene scene = loaded_glb(builder);
     EXPECT_EQ(scene.meshes[0].primitives[0].indices.size(), 3u);
     EXPECT_EQ(scene.notes.size(), 1u);
 }
@@ -65,7 +65,7 @@ TEST(GltfGeometry, points_stay_points_and_lines_go) {
         GltfBuilder builder;
         const int positions = builder.floats("VEC3", kZigzag);
         builder.place_primitive({{"attributes", {{"POSITION", positions}}}, {"mode", mode}});
-        const Scene scene = loaded(builder);
+        const Scene scene = loaded_glb(builder);
         EXPECT_TRUE(scene.meshes[0].primitives.empty());
         ASSERT_EQ(scene.notes.size(), 1u);
         EXPECT_NE(scene.notes[0].find("lines"), std::string::npos);
@@ -106,7 +106,7 @@ TEST(GltfGeometry, normals_of_no_length_come_from_the_triangle) {
     GltfBuilder builder = test::triangle();
     builder.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] =
         builder.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0});
-    const Scene scene = loaded(builder);
+    const Scene scene = loaded_glb(builder);
     EXPECT_EQ(scene.meshes[0].primitives[0].normals[0], Vec3(0, 0, 1));
     EXPECT_EQ(scene.notes.size(), 1u);
 }
@@ -157,7 +157,7 @@ TEST(GltfGeometry, quantised_positions_need_their_extension) {
     builder.json["accessors"][0]["count"] = 3;
     builder.json["bufferViews"][0]["byteStride"] = 8;
     builder.place_primitive({{"attributes", {{"POSITION", positions}}}});
-    EXPECT_THROW(loaded(builder), Error);
+    EXPECT_THROW(loaded_glb(builder), Error);
     builder.json["extensionsUsed"] = builder.json["extensionsRequired"] = {"KHR_mesh_quantization"};
     EXPECT_EQ(only_primitive(builder).positions[2], Vec3(0, -32768, 0));
     builder.json["accessors"][0]["normalized"] = true;
@@ -178,7 +178,7 @@ TEST(GltfGeometry, a_unit_scales_every_length) {
     builder.json["nodes"][0]["translation"] = {10, 0, 0};
     builder.json["scenes"][0]["extras"]["daylit"]["unit"] = 0.5;
     const auto far_corner = [&](const LoadOptions& options) {
-        const Scene scene = loaded(builder, options);
+        const Scene scene = loaded_glb(builder, options);
         return bounds(world_mesh(scene, pose_scene(scene), Part::All)).max;
     };
     EXPECT_EQ(far_corner({}), Vec3(5.5f, 0.5f, 0));

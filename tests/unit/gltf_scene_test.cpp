@@ -16,7 +16,7 @@ namespace {
 using test::GltfBuilder;
 using test::Json;
 
-Scene loaded(const GltfBuilder& builder, const LoadOptions& options = {}) {
+Scene loaded_gltf(const GltfBuilder& builder, const LoadOptions& options = {}) {
     const test::TemporaryFolder folder;
     return load_scene(builder.save_gltf(folder / "scene.gltf"), options);
 }
@@ -35,7 +35,7 @@ GltfBuilder with_material(const Json& material) {
 }
 
 Material material_of(const Json& json, const LoadOptions& options = {}) {
-    return loaded(with_material(json), options).materials.at(0);
+    return loaded_gltf(with_material(json), options).materials.at(0);
 }
 
 TEST(GltfScene, gltf_and_glb_with_the_same_content_are_the_same_scene) {
@@ -56,7 +56,7 @@ TEST(GltfScene, parents_come_before_children_and_only_the_default_scene_counts) 
                              {{"name", "first"}}};
     builder.json["scenes"] = {{{"nodes", {2}}}, {{"nodes", {1}}}};
     builder.json["scene"] = 1;
-    const Scene scene = loaded(builder);
+    const Scene scene = loaded_gltf(builder);
     EXPECT_EQ(scene.order, (std::vector<int>{1, 3, 0}));
     EXPECT_EQ(scene.nodes[0].parent, 1);
 }
@@ -69,7 +69,7 @@ TEST(GltfScene, cameras_are_named_after_their_nodes) {
     builder.json["nodes"].push_back({{"name", "door"}, {"camera", 0}, {"translation", {0, 2, 0}}});
     builder.json["nodes"].push_back({{"camera", 1}});
     builder.json["scenes"][0]["nodes"] = {0, 1, 2};
-    const Scene scene = loaded(builder);
+    const Scene scene = loaded_gltf(builder);
     ASSERT_EQ(scene.cameras.size(), 2u);
     EXPECT_EQ(scene.cameras[0].name, "door");
     EXPECT_EQ(scene.cameras[0].vertical_fov, 0.5f);
@@ -99,7 +99,7 @@ TEST(GltfScene, lights_have_the_extension_s_defaults) {
         builder.json["nodes"].push_back(node);
     }
     builder.json["scenes"][0]["nodes"] = {0, 1, 2, 3};
-    const Scene scene = loaded(builder, {.unit = 0.5});
+    const Scene scene = loaded_gltf(builder, {.unit = 0.5});
     ASSERT_EQ(scene.lights.size(), 3u);
     EXPECT_EQ(scene.lights[0].intensity, Rgb(40, 20, 0));
     EXPECT_EQ(scene.lights[1].kind, LightKind::Spot);
@@ -123,7 +123,7 @@ TEST(GltfScene, extras_say_what_is_lit_in_the_evening) {
         builder.json["nodes"].push_back(node);
     }
     builder.json["scenes"][0]["nodes"] = {0, 1, 2, 3};
-    const Scene scene = loaded(builder);
+    const Scene scene = loaded_gltf(builder);
     EXPECT_EQ(scene.materials[0].lit, Lit::Evening);
     EXPECT_EQ(scene.materials.back().lit, Lit::Always);
     ASSERT_EQ(scene.lights.size(), 3u);
@@ -151,7 +151,7 @@ TEST(GltfScene, a_bare_material_is_gltf_s_default) {
 }
 
 TEST(GltfScene, primitives_without_a_material_get_the_default_one) {
-    const Scene scene = loaded(test::triangle());
+    const Scene scene = loaded_gltf(test::triangle());
     ASSERT_EQ(scene.materials.size(), 1u);
     EXPECT_EQ(scene.meshes[0].primitives[0].material, 0);
 }
@@ -173,7 +173,7 @@ TEST(GltfScene, material_extensions) {
 }
 
 TEST(GltfScene, specular_glossiness_reflects_what_it_says) {
-    const Scene scene = loaded(with_material({{"extensions",
+    const Scene scene = loaded_gltf(with_material({{"extensions",
                                                {{"KHR_materials_pbrSpecularGlossiness",
                                                  {{"diffuseFactor", {0.5, 0.25, 0, 1}},
                                                   {"specularFactor", {0.2, 0.4, 0.6}},
@@ -285,7 +285,7 @@ TEST(GltfScene, lambert_leaves_colour_and_emission) {
         with_material({{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}, {"roughnessFactor", 0.1}}},
                        {"emissiveFactor", {1, 1, 1}},
                        {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}});
-    const Scene scene = loaded(builder, {.lambert = true});
+    const Scene scene = loaded_gltf(builder, {.lambert = true});
     const glsl::Brdf brdf = surface_brdf(scene, scene.materials[0], {}, Rgba(1));
     EXPECT_EQ(brdf.diffuse, Rgb(0.5f));
     EXPECT_EQ(brdf.specular, Rgb(0.0f));
@@ -294,7 +294,7 @@ TEST(GltfScene, lambert_leaves_colour_and_emission) {
 }
 
 TEST(GltfScene, values_out_of_range_are_clamped_with_a_note) {
-    const Scene scene = loaded(with_material({{"pbrMetallicRoughness", {{"roughnessFactor", 7}}}}));
+    const Scene scene = loaded_gltf(with_material({{"pbrMetallicRoughness", {{"roughnessFactor", 7}}}}));
     EXPECT_EQ(scene.materials[0].roughness, 1.0f);
     EXPECT_TRUE(noted(scene, "roughnessFactor"));
 }
@@ -302,14 +302,14 @@ TEST(GltfScene, values_out_of_range_are_clamped_with_a_note) {
 TEST(GltfScene, extensions_required_optional_and_known) {
     GltfBuilder builder = test::triangle();
     builder.json["extensionsUsed"] = {"KHR_materials_sheen", "KHR_materials_unlit"};
-    const Scene scene = loaded(builder);
+    const Scene scene = loaded_gltf(builder);
     EXPECT_TRUE(noted(scene, "KHR_materials_sheen"));
     EXPECT_FALSE(noted(scene, "KHR_materials_unlit"));
     builder.json["extensionsRequired"] = {"KHR_materials_unlit"};
-    EXPECT_NO_THROW(loaded(builder));
+    EXPECT_NO_THROW(loaded_gltf(builder));
     builder.json["extensionsRequired"] = {"KHR_materials_sheen"};
     try {
-        loaded(builder);
+        loaded_gltf(builder);
         FAIL();
     } catch (const Error& error) {
         EXPECT_NE(std::string(error.what()).find("KHR_materials_sheen"), std::string::npos);
@@ -374,7 +374,7 @@ TEST(GltfScene, instances_are_placed_each) {
     builder.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", places},
                                                                                        {"SCALE", scales}};
     builder.json["nodes"][0]["translation"] = {0, 5, 0};
-    const Scene scene = loaded(builder);
+    const Scene scene = loaded_gltf(builder);
     const WorldMesh mesh = world_mesh(scene, pose_scene(scene), Part::All);
     EXPECT_EQ(mesh.triangle_count(), 2u);
     EXPECT_EQ(mesh.positions[1], Vec3(1, 5, 0));
@@ -385,7 +385,7 @@ TEST(GltfScene, extras_daylit) {
     GltfBuilder builder = test::triangle();
     builder.json["scenes"][0]["extras"]["daylit"] = {{"latitude", -33.5}, {"date", "2025-12-21"}, {"clouds", 0.25}};
     builder.json["nodes"][0]["extras"]["daylit"]["dynamic"] = true;
-    const Scene scene = loaded(builder);
+    const Scene scene = loaded_gltf(builder);
     EXPECT_EQ(scene.extras.latitude, -33.5);
     EXPECT_EQ(scene.extras.date, (Date{2025, 12, 21}));
     EXPECT_EQ(scene.extras.clouds, 0.25);
@@ -407,7 +407,7 @@ TEST(GltfScene, dynamic_is_what_is_animated_below_it_or_skinned_by_it) {
     builder.json["animations"] = {
         {{"samplers", {{{"input", times}, {"output", places}}}},
          {"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "translation"}}}}}}}};
-    const Scene scene = loaded(builder);
+    const Scene scene = loaded_gltf(builder);
     EXPECT_FALSE(scene.nodes[0].dynamic);
     EXPECT_TRUE(scene.nodes[1].dynamic);
     EXPECT_TRUE(scene.nodes[2].dynamic);
@@ -418,7 +418,7 @@ TEST(GltfScene, dynamic_is_what_is_animated_below_it_or_skinned_by_it) {
 
 TEST(GltfScene, an_empty_file_is_an_empty_scene) {
     GltfBuilder builder;
-    const Scene scene = loaded(builder);
+    const Scene scene = loaded_gltf(builder);
     EXPECT_TRUE(scene.order.empty());
     EXPECT_TRUE(bounds(world_mesh(scene, pose_scene(scene), Part::All)).empty());
 }
