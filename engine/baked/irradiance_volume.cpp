@@ -3,9 +3,6 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
-#include <glm/gtc/packing.hpp>
-
 namespace daylit {
 namespace {
 
@@ -24,24 +21,25 @@ std::vector<Vec4> IrradianceVolume::records(std::span<const Rgb> weights) const 
     std::vector<Vec4> result(kNumbers * tree.records(), Vec4(0.0f));
     const std::size_t count = tree.samples;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kAtOnce), [&](const auto& range) {
-        std::vector<float> step(range.size());  // per metre, of a record's changes
-        for (std::size_t r = 0; r < weights.size(); ++r) {
-            for (std::size_t s = range.begin(); s < range.end(); ++s)
-                step[s - range.begin()] = glm::unpackHalf1x16(change_scale[r * count + s]) / (127.0f * sides[s]);
+        for (std::size_t r = 0; r < weights.size(); ++r)
             for (std::size_t i = 0; i < kNumbers; ++i) {
                 const float weight = weights[r][glm::length_t(i % 3)];
                 if (weight == 0.0f) continue;
-                const std::uint16_t* value = values.data() + (r * kNumbers + i) * count;
+                const std::int16_t* value = values.data() + (r * kNumbers + i) * count;
                 for (std::size_t s = range.begin(); s < range.end(); ++s)
-                    result[s * kNumbers + i].x += weight * glm::unpackHalf1x16(value[s]);
+                    result[s * kNumbers + i].x += weight * float(value[s]);
                 for (std::size_t axis = 0; axis < 3; ++axis) {
                     const std::int8_t* change = changes.data() + ((r * 3 + axis) * kNumbers + i) * count;
                     for (std::size_t s = range.begin(); s < range.end(); ++s)
-                        result[s * kNumbers + i][glm::length_t(1 + axis)] +=
-                            weight * step[s - range.begin()] * float(change[s]);
+                        result[s * kNumbers + i][glm::length_t(1 + axis)] += weight * float(change[s]);
                 }
             }
-        }
+        for (std::size_t s = range.begin(); s < range.end(); ++s)
+            for (std::size_t i = 0; i < kNumbers; ++i) {
+                const std::size_t step = i % 3 * count + s;
+                const float change = change_step[step] / sides[s];  // a metre
+                result[s * kNumbers + i] *= Vec4(value_step[step], change, change, change);
+            }
     });
     fill_hanging(tree, result);
     return result;

@@ -14,14 +14,14 @@ namespace daylit {
 struct IrradianceVolume {
     VolumeTree tree;
     LightBasis basis;
-    /// RGB halves of each sampled record's radiance SH (shaders/shared/sh.h), cd/m^2 once multiplied by the weights:
-    /// [component][coefficient * 3 + channel][record].
-    std::vector<std::uint16_t> values;
-    /// Its change along x, y and z over the side of the largest cell that shares the record, as a share of
-    /// change_scale / 127: [component][axis][coefficient * 3 + channel][record].
+    /// RGB of each sampled record's radiance SH (shaders/shared/sh.h), in the record's steps; cd/m^2 once multiplied by the
+    /// weights: [component][coefficient * 3 + channel][record].
+    std::vector<std::int16_t> values;
+    /// Its change along x, y and z over the side of the largest cell that shares the record, in steps of changes:
+    /// [component][axis][coefficient * 3 + channel][record].
     std::vector<std::int8_t> changes;
-    /// Halves: [component][record], so that a dark room beside a bright one keeps its changes.
-    std::vector<std::uint16_t> change_scale;
+    /// [channel][record], so that a dark room beside a bright one keeps its light, and a dim channel its colour; not negative.
+    std::vector<float> value_step, change_step;
 
     /// Bytes that a renderer keeps: cells, and the records of one moment.
     std::size_t memory() const;

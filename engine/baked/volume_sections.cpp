@@ -1,7 +1,9 @@
 #include "engine/baked/volume_sections.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "engine/baked/integer_coding.h"
 #include "engine/baked/light_basis_bytes.h"
 
 namespace daylit {
@@ -61,21 +63,26 @@ std::size_t tree_bytes(const Counts& c) {
            c.hanging * sizeof(HangingCorner);
 }
 
-bool all_finite(const std::vector<std::uint16_t>& halves) {
-    return std::none_of(halves.begin(), halves.end(), [](std::uint16_t half) { return (half & 0x7C00u) == 0x7C00u; });
-}
-
 Bytes code_records(const IrradianceVolume& volume) {
     ByteWriter w;
-    w.put_all(volume.change_scale), w.put_all(volume.changes), w.put_all(volume.values);
+    w.put_all(volume.value_step), w.put_all(volume.change_step);
+    w.put_all(volume.changes);
+    put_integers(w, volume.values);
     return w.take();
+}
+
+std::vector<float> decode_steps(ByteReader& r, std::size_t count) {
+    std::vector<float> steps = r.get_all<float>(count);
+    if (!std::all_of(steps.begin(), steps.end(), [](float s) { return std::isfinite(s) && s >= 0.0f; }))
+        r.fail("holds a step that is negative or not finite");
+    return steps;
 }
 
 }  // namespace
 
 std::vector<CodedSection> code_volume(const IrradianceVolume& volume) {
     return {code_section("VOLU", code_shape(volume)), code_section("VOTR", code_tree(volume.tree)),
-            code_section("VOSH", code_records(volume))};
+            code_section("VORE", code_records(volume))};
 }
 
 bool has_volume(const SectionFile& file) {
@@ -86,13 +93,12 @@ IrradianceVolume read_volume(const SectionFile& file) {
     IrradianceVolume volume;
     const Counts counts = decode_shape(file.open("VOLU"), volume);
     decode_tree(file.open("VOTR", tree_bytes(counts)), counts, volume.tree);
-    const std::size_t scales = std::size_t(volume.basis.components) * volume.tree.samples, values = kNumbers * scales;
-    ByteReader r = file.open("VOSH", 2 * scales + 5 * values);
-    volume.change_scale = r.get_all<std::uint16_t>(scales);
-    if (!all_finite(volume.change_scale)) r.fail("holds a scale that is not finite");
-    volume.changes = r.get_all<std::int8_t>(3 * values);
-    volume.values = r.get_all<std::uint16_t>(values);
-    if (!all_finite(volume.values)) r.fail("holds light that is not finite");
+    const std::size_t count = volume.tree.samples, numbers = std::size_t(volume.basis.components) * kNumbers * count;
+    ByteReader r = file.open("VORE", 6 * sizeof(float) * count + 5 * numbers);
+    volume.value_step = decode_steps(r, 3 * count);
+    volume.change_step = decode_steps(r, 3 * count);
+    volume.changes = r.get_all<std::int8_t>(3 * numbers);
+    volume.values = get_integers(r, numbers);
     r.expect_end();
     return volume;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The irradiance volume in a file: sections 'VOLU', 'VOTR', 'VOSH'.
+// The irradiance volume in a file: sections 'VOLU', 'VOTR', 'VORE'.
 #include "engine/baked/irradiance_volume.h"
 #include "engine/baked/section_file.h"
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/packing.hpp>
 #include <map>
 #include <mutex>
 #include <tuple>
@@ -12,6 +11,7 @@
 #include "gi/encode/judged_basis.h"
 #include "gi/encode/volume_budget.h"
 #include "gi/encode/volume_fit.h"
+#include "gi/encode/volume_records.h"
 #include "shaders/shared/sh.h"
 
 namespace daylit {
@@ -22,8 +22,7 @@ constexpr int kPilots = 400;  // samples that the basis is chosen by,
 // with at least so many rays: what noise adds to their light would ask for components, in place of light that is there.
 constexpr int kPilotRays = 1024;
 constexpr std::size_t kJudgedMoments = 6;
-// Far from the end of halves (65504), and far above their smallest normal number (6e-5).
-constexpr float kLargestHalf = 16384.0f, kFullHalf = 65504.0f;
+constexpr float kStoredNoise = 0.002f;  // of a record's light, by rounding: below what its rays leave of noise
 // Three bands of a single far light ring by 4 to 6 % of its brightness: less than a window would dim its bright side
 // by.
 constexpr float kCutShare = 0.05f;
@@ -203,42 +202,6 @@ float window(float* record, std::size_t components, const VolumeJudge& judge) {
     return lambda;
 }
 
-/// Records as the file keeps them.
-void quantise(const std::vector<float>& records, IrradianceVolume& volume) {
-    const std::size_t components = std::size_t(volume.basis.components), numbers = kNumbers * components;
-    const std::size_t count = volume.tree.samples;
-    const std::vector<float> sides = record_sides(volume.tree);
-    const auto number = [&](std::size_t s, std::size_t part, std::size_t i, std::size_t r) {
-        return records[(s * 4 + part) * numbers + i * components + r];
-    };
-    volume.values.resize(count * numbers);
-    volume.changes.resize(3 * count * numbers);
-    volume.change_scale.resize(count * components);
-    for (std::size_t r = 0; r < components; ++r) {
-        float largest = 0.0f;
-        for (std::size_t s = 0; s < count; ++s)
-            for (std::size_t i = 0; i < kNumbers; ++i) largest = std::max(largest, std::abs(number(s, 0, i, r)));
-        const float scale = largest > 0.0f ? largest / kLargestHalf : 1.0f;
-        for (std::size_t c = 0; c < volume.basis.columns(); ++c)
-            volume.basis.curves[r * volume.basis.columns() + c] *= scale;
-        for (std::size_t s = 0; s < count; ++s) {
-            float steepest = 0.0f;
-            for (std::size_t i = 0; i < kNumbers; ++i) {
-                volume.values[(r * kNumbers + i) * count + s] = glm::packHalf1x16(number(s, 0, i, r) / scale);
-                for (std::size_t a = 1; a < 4; ++a)
-                    steepest = std::max(steepest, std::abs(number(s, a, i, r)) * sides[s] / scale);
-            }
-            const std::uint16_t coded = glm::packHalf1x16(std::min(steepest, kFullHalf));
-            const float step = glm::unpackHalf1x16(coded) / 127.0f;
-            volume.change_scale[r * count + s] = coded;
-            for (std::size_t i = 0; step > 0.0f && i < kNumbers; ++i)
-                for (std::size_t a = 0; a < 3; ++a)
-                    volume.changes[((r * 3 + a) * kNumbers + i) * count + s] = std::int8_t(
-                        std::lround(std::clamp(number(s, a + 1, i, r) * sides[s] / scale / step, -127.0f, 127.0f)));
-        }
-    }
-}
-
 /// RMS over mean of irradiance at all places that were measured inside cells.
 double measure(const OctreeCells& cells, const RefinedVolume& refined, const IrradianceVolume& volume,
                const LightBasis& dense, std::span<const Moment> moments) {
@@ -370,7 +333,7 @@ EncodedVolume VolumeEncoder::encode(const VolumeSettings& settings, const StageP
                 result.window, double(window(fit.records.data() + 4 * r * kNumbers * components, components, s.judge)));
     result.volume.tree = cells.tree;
     result.volume.basis = s.basis.stored;
-    quantise(fit.records, result.volume);
+    store_records(fit.records, kStoredNoise, result.volume);
     if (settings.blend == VolumeBlend::Adini)
         result.error = measure(cells, refined, result.volume, s.basis.dense, s.judged);
     result.samples = refined.places.samples.size();

@@ -6,12 +6,12 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
-#include <glm/gtc/packing.hpp>
 #include <string>
 
 #include "engine/baked/volume_batch.h"
 #include "engine/base/random.h"
 #include "gi/encode/volume_octree.h"
+#include "gi/encode/volume_records.h"
 
 namespace daylit {
 namespace {
@@ -38,18 +38,13 @@ IrradianceVolume make_volume() {
     IrradianceVolume volume;
     volume.tree = made.tree;
     volume.basis.hours = {12.0}, volume.basis.components = 1, volume.basis.curves = {0, 0, 0, 0, 1};
-    const std::vector<float> sides = record_sides(volume.tree);
-    volume.changes.resize(3 * kNumbers * made.samples.size());
-    const float scale = 2.0f * kSide / 4.0f;
-    volume.change_scale.assign(made.samples.size(), glm::packHalf1x16(scale));
-    for (std::size_t i = 0; i < kNumbers; ++i) {
-        for (std::size_t s = 0; s < made.samples.size(); ++s) {
-            volume.values.push_back(glm::packHalf1x16(field(i, octree.place(made.samples[s].at))));
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                volume.changes[(axis * kNumbers + i) * made.samples.size() + s] =
-                    std::int8_t(std::lround(127.0f * field_change(i)[glm::length_t(axis)] * sides[s] / scale));
-        }
+    std::vector<float> records;
+    for (const auto& sample : made.samples) {
+        for (std::size_t i = 0; i < kNumbers; ++i) records.push_back(field(i, octree.place(sample.at)));
+        for (glm::length_t axis = 0; axis < 3; ++axis)
+            for (std::size_t i = 0; i < kNumbers; ++i) records.push_back(field_change(i)[axis]);
     }
+    store_records(records, 0.0f, volume);
     return volume;
 }
 

@@ -28,7 +28,7 @@ IrradianceVolume uneven_volume() {
         return i == 0 ? 100.0f + 200.0f * random.next() : 60.0f * (random.next() - 0.5f);
     });
     for (std::int8_t& change : volume.changes) change = std::int8_t(int(255.0f * random.next()) - 127);
-    volume.change_scale.assign(volume.tree.samples, glm::packHalf1x16(20.0f));
+    volume.change_step.assign(3 * volume.tree.samples, 20.0f / 127.0f);
     return volume;
 }
 

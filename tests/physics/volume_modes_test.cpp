@@ -2,13 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <glm/gtc/packing.hpp>
 
 #include "engine/base/error.h"
 #include "engine/base/random.h"
 #include "gi/encode/sweep.h"
 #include "gi/encode/volume_mode_light.h"
 #include "gi/encode/volume_octree.h"
+#include "gi/encode/volume_records.h"
 
 namespace daylit {
 namespace {
@@ -28,21 +28,12 @@ IrradianceVolume volume_on(const Octree& octree, std::size_t coefficients = 9) {
     IrradianceVolume volume;
     volume.tree = made.tree;
     volume.basis.hours = {12.0}, volume.basis.components = 1, volume.basis.curves = {0, 0, 0, 0, 1};
-    const std::vector<float> sides = record_sides(volume.tree);
-    const std::size_t count = made.samples.size();
-    volume.values.resize(kNumbers * count), volume.changes.resize(3 * kNumbers * count);
-    constexpr float kSteepest = 8.0f;
-    for (std::size_t s = 0; s < count; ++s) {
-        const float scale = glm::unpackHalf1x16(glm::packHalf1x16(kSteepest * sides[s]));
-        volume.change_scale.push_back(glm::packHalf1x16(scale));
-        for (std::size_t i = 0; i < kNumbers; ++i) {
-            const Vec4 number = field(i, octree.place(made.samples[s].at), coefficients);
-            volume.values[i * count + s] = glm::packHalf1x16(number.x);
-            for (std::size_t a = 0; a < 3; ++a)
-                volume.changes[(a * kNumbers + i) * count + s] =
-                    std::int8_t(std::lround(127.0f * number[glm::length_t(1 + a)] * sides[s] / scale));
-        }
-    }
+    std::vector<float> records;
+    for (const auto& sample : made.samples)
+        for (glm::length_t part = 0; part < 4; ++part)
+            for (std::size_t i = 0; i < kNumbers; ++i)
+                records.push_back(field(i, octree.place(sample.at), coefficients)[part]);
+    store_records(records, 0.0f, volume);
     return volume;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // Irradiance volumes of equal cells, made by hand.
+#include <algorithm>
 #include <cmath>
-#include <glm/gtc/packing.hpp>
 
 #include "engine/baked/irradiance_volume.h"
 
@@ -29,11 +29,18 @@ IrradianceVolume volume_of(const Vec3& origin, const std::array<int, 3>& size, c
     volume.basis.hours = {12.0};
     volume.basis.components = 1;
     volume.basis.curves = {0, 0, 0, 0, 1};
+    std::vector<float> all;
+    float largest = 0.0f;
     for (int i = 0; i < glsl::kVolumeNumbers; ++i)
-        for (std::uint32_t s = 0; s < tree.samples; ++s)
-            volume.values.push_back(glm::packHalf1x16(float(value(int(s), i / 3, i % 3))));
+        for (std::uint32_t s = 0; s < tree.samples; ++s) {
+            all.push_back(float(value(int(s), i / 3, i % 3)));
+            largest = std::max(largest, std::abs(all.back()));
+        }
+    const float step = std::exp2(std::ceil(std::log2(largest / 32767.0f)));  // whole numbers stay as they are
+    for (const float number : all) volume.values.push_back(std::int16_t(std::lround(number / step)));
+    volume.value_step.assign(3 * tree.samples, step);
     volume.changes.assign(3 * volume.values.size(), 0);
-    volume.change_scale.assign(tree.samples, 0);
+    volume.change_step.assign(3 * tree.samples, 0.0f);
     return volume;
 }
 

@@ -171,7 +171,8 @@ TEST_F(BakedFile, VolumeRoundTrips) {
         EXPECT_EQ(read.volume->basis.curves, baked.volume->basis.curves);
         EXPECT_EQ(read.volume->values, baked.volume->values);
         EXPECT_EQ(read.volume->changes, baked.volume->changes);
-        EXPECT_EQ(read.volume->change_scale, baked.volume->change_scale);
+        EXPECT_EQ(read.volume->value_step, baked.volume->value_step);
+        EXPECT_EQ(read.volume->change_step, baked.volume->change_step);
         EXPECT_GT(read.plan[1].bytes, 0u);
     }
 }
@@ -250,8 +251,8 @@ TEST_F(BakedFile, ImpossibleContentsAreRefused) {
     expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->tree.cells[1].high.z = 12; });
     expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->tree.nodes[1] = 0; });
     expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->values.pop_back(); });
-    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->values[5] = 0x7C00; });
-    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->change_scale[5] = 0x7C00; });
+    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->value_step[5] = -1.0f; });
+    expect_refused([](Baked& b) { b.volume = small_volume(), b.volume->change_step[5] = INFINITY; });
     expect_refused([](Baked& b) { b.light.turbidity = INFINITY; });
     expect_refused([](Baked& b) { b.light.sky = SkySource(200); });
 }

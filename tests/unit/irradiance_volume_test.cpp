@@ -95,10 +95,10 @@ TEST(IrradianceVolume, blends_corners_and_holds_the_border) {
     EXPECT_NEAR(at({-50, 100, 3.5f}), 0.0 + 2.0 + 2.0, 1e-5);
 }
 
-// A change of 2 per metre along x, stored as steps of a scale, makes light linear there.
+// A change of 2 per metre along x, stored in steps, makes light linear there.
 TEST(IrradianceVolume, changes_at_corners_count) {
     auto volume = cell_of([](int p, int i) { return i == 0 ? float(2 * (p & 1)) : 0.0f; });
-    volume.change_scale.assign(8, glm::packHalf1x16(2.0f));
+    volume.change_step.assign(24, 2.0f / 127.0f);
     for (int i = 0; i < 3; ++i)
         for (std::size_t s = 0; s < 8; ++s) volume.changes[std::size_t(i) * 8 + s] = 127;
     const VolumeLight light = light_of(volume);
@@ -116,11 +116,10 @@ TEST(IrradianceVolume, is_never_negative) {
 
 TEST(IrradianceVolume, sums_its_components_each_with_its_colour) {
     auto volume = cell_of([](int, int i) { return i == 0 ? 2.0f : 0.0f; });
-    const std::vector<std::uint16_t> values = volume.values;
+    const std::vector<std::int16_t> values = volume.values;
     volume.basis.components = 2;
     volume.values.insert(volume.values.end(), values.begin(), values.end());
     volume.changes.resize(2 * volume.changes.size(), 0);
-    volume.change_scale.resize(2 * volume.change_scale.size(), 0);
     const VolumeLight light(volume, std::vector<Rgb>{Rgb(2, 0, 1), Rgb(5, 1, 0)});
     const double unit = kPi * 0.282094792 * 2.0;
     const Rgb found = light.irradiance(Vec3(1.5f), Vec3(1, 0, 0));

@@ -1,0 +1,84 @@
+#include "gi/encode/volume_records.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/units.h"
+
+namespace daylit {
+namespace {
+
+constexpr std::size_t kNumbers = glsl::kVolumeNumbers;
+constexpr float kMostValue = 32767.0f, kMostChange = 127.0f;
+// The cosine lobe in bands 0, 1 and 2 (Ramamoorthi and Hanrahan 2001); what one and the same error of every coefficient
+// does to irradiance, RMS over normals: the root of (lobe0^2 + 3 lobe1^2 + 5 lobe2^2) / (4 pi).
+constexpr double kLobe[3] = {kPi, 2.0 * kPi / 3.0, kPi / 4.0};
+constexpr float kLobeNorm = 1.442f;
+// Inside a cell the changes of its corners weigh, RMS, 0.30 of what their values do (Hermite's h10 against h00, along
+// one of three axes, three of them): steps larger by that share add as much noise.
+constexpr float kChangeSteps = 3.4f;
+
+/// One record's numbers.
+class Record {
+  public:
+    Record(std::span<const float> all, std::size_t record, std::size_t components)
+        : first_(all.data() + record * 4 * kNumbers * components), components_(components) {}
+
+    float at(std::size_t part, std::size_t i, std::size_t component) const {
+        return first_[(part * kNumbers + i) * components_ + component];
+    }
+    float largest(std::size_t first_part, std::size_t last_part, std::size_t channel) const {
+        float found = 0.0f;
+        for (std::size_t part = first_part; part <= last_part; ++part)
+            for (std::size_t i = channel; i < kNumbers; i += 3)
+                for (std::size_t r = 0; r < components_; ++r) found = std::max(found, std::abs(at(part, i, r)));
+        return found;
+    }
+    /// Of irradiance, RMS over normals and moments.
+    float brightness(std::size_t channel) const {
+        double square = 0.0;
+        for (std::size_t i = channel; i < kNumbers; i += 3) {
+            const double lobe = kLobe[i < 3 ? 0 : i < 12 ? 1 : 2];
+            for (std::size_t r = 0; r < components_; ++r) square += std::pow(lobe * double(at(0, i, r)), 2);
+        }
+        return float(std::sqrt(square / (4.0 * kPi)));
+    }
+
+  private:
+    const float* first_;
+    std::size_t components_;
+};
+
+}  // namespace
+
+void store_records(std::span<const float> records, float noise, IrradianceVolume& volume) {
+    const std::size_t components = std::size_t(volume.basis.components), count = volume.tree.samples;
+    const std::vector<float> sides = record_sides(volume.tree);
+    volume.values.assign(components * kNumbers * count, 0);
+    volume.changes.assign(3 * components * kNumbers * count, 0);
+    volume.value_step.assign(3 * count, 0.0f);
+    volume.change_step.assign(3 * count, 0.0f);
+    // Rounding to steps errs by step / sqrt(12), in every component alike.
+    const float share = noise * std::sqrt(12.0f / float(std::max<std::size_t>(components, 1))) / kLobeNorm;
+    for (std::size_t s = 0; s < count; ++s)
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            const Record record(records, s, components);
+            const float step = std::max(share * record.brightness(channel), record.largest(0, 0, channel) / kMostValue);
+            const float change_step =
+                std::max(kChangeSteps * step, record.largest(1, 3, channel) * sides[s] / kMostChange);
+            if (!(change_step > 0.0f)) continue;
+            volume.value_step[channel * count + s] = step;
+            volume.change_step[channel * count + s] = change_step;
+            for (std::size_t r = 0; r < components; ++r)
+                for (std::size_t i = channel; i < kNumbers; i += 3) {
+                    if (step > 0.0f)
+                        volume.values[(r * kNumbers + i) * count + s] =
+                            std::int16_t(std::lround(std::clamp(record.at(0, i, r) / step, -kMostValue, kMostValue)));
+                    for (std::size_t a = 0; a < 3; ++a)
+                        volume.changes[((r * 3 + a) * kNumbers + i) * count + s] = std::int8_t(std::lround(
+                            std::clamp(record.at(a + 1, i, r) * sides[s] / change_step, -kMostChange, kMostChange)));
+                }
+        }
+}
+
+}  // namespace daylit
