@@ -3,8 +3,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nanoflann.hpp>
+
+#include "gi/transport/path_trace/sampling.h"
 
 namespace daylit {
 namespace {
@@ -15,6 +18,7 @@ constexpr float kSigmaOfNearness = 0.3f;  // and at most this share of the mean 
 constexpr float kReach = 2.5f;            // sigmas
 constexpr float kMinCosine = 0.9f;
 constexpr float kPlane = 0.25f;  // texels out of the tangent plane at which the weight falls to 1/e
+constexpr double kStiff = 0.01;  // squared texels on top of the neighbours' spread: few of them tell no slope
 
 struct Cloud {
     const std::vector<Vec3>& points;
@@ -66,6 +70,25 @@ class Neighbourhood {
     const std::vector<bool>& usable_;
 };
 
+/// Makes weights of a mean (sum 1) those of a plane fitted by least squares with them, read at the texel: a mean of
+/// neighbours that lie to one side, as along a rim, is the light farther in.
+void fit_plane(const Texels& texels, std::uint32_t texel, std::span<const std::uint32_t> ids, std::span<float> weight) {
+    const Frame frame(texels.normal[texel]);
+    std::array<glm::dvec2, kNeighbours> place;
+    glm::dvec2 middle(0.0);
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+        const Vec3 offset = texels.position[ids[k]] - texels.position[texel];
+        place[k] = {glm::dot(offset, frame.x), glm::dot(offset, frame.y)};
+        middle += double(weight[k]) * place[k];
+    }
+    const double width = double(texels.width[texel]);
+    glm::dmat2 spread(kStiff * width * width);
+    for (std::size_t k = 0; k < ids.size(); ++k)
+        spread += double(weight[k]) * glm::outerProduct(place[k] - middle, place[k] - middle);
+    const glm::dvec2 lean = glm::inverse(spread) * middle;
+    for (std::size_t k = 0; k < ids.size(); ++k) weight[k] *= float(1.0 - glm::dot(lean, place[k] - middle));
+}
+
 }  // namespace
 
 SmoothingWeights smoothing_weights(const RayScene& rays, const Texels& texels, std::span<const float> nearness,
@@ -87,14 +110,16 @@ SmoothingWeights smoothing_weights(const RayScene& rays, const Texels& texels, s
         for (std::size_t k = 0; k < n; ++k)
             sum += weight[t * kNeighbours + k] = neighbourhood.weight(std::uint32_t(t), ids[k]);
         if (sum <= 0.0f) ids[0] = std::uint32_t(t), weight[t * kNeighbours] = sum = 1.0f;  // many at one place
-        for (std::size_t k = 0; k < n; ++k) weight[t * kNeighbours + k] /= sum;
+        const std::span<float> weights(weight.data() + t * kNeighbours, n);
+        for (float& w : weights) w /= sum;
+        fit_plane(texels, std::uint32_t(t), {ids, n}, weights);
     });
 
     SmoothingWeights result;
     result.first.push_back(0);
     for (std::size_t t = 0; t < count; ++t) {
         for (std::size_t k = t * kNeighbours; k < (t + 1) * kNeighbours; ++k)
-            if (weight[k] > 0.0f) result.texel.push_back(found[k]), result.weight.push_back(weight[k]);
+            if (weight[k] != 0.0f) result.texel.push_back(found[k]), result.weight.push_back(weight[k]);
         result.first.push_back(std::uint32_t(result.texel.size()));
     }
     return result;

@@ -8,7 +8,7 @@
 
 namespace daylit {
 
-/// Weights of a texel's neighbours, itself included, summing to 1; a sparse matrix by rows.
+/// Weights of a texel's neighbours, itself included, summing to 1, some below 0; a sparse matrix by rows.
 struct SmoothingWeights {
     std::vector<std::uint32_t> first;  // one more than texels
     std::vector<std::uint32_t> texel;
@@ -16,8 +16,9 @@ struct SmoothingWeights {
 };
 
 /// Neighbours on the same surface that see each other: within about two texels and a third of the distance to what
-/// lights them (`nearness`, metres), facing alike, in one plane, with free sight just above the surface.
-/// usable    texels that hold light; the others get no neighbours and are nobody's
+/// lights them (`nearness`, metres), facing alike, in one plane, with free sight just above the surface. Light that
+/// changes evenly along the surface stays as it is, up to its rims. usable    texels that hold light; the others get no
+/// neighbours and are nobody's
 SmoothingWeights smoothing_weights(const RayScene& rays, const Texels& texels, std::span<const float> nearness,
                                    const std::vector<bool>& usable);
 

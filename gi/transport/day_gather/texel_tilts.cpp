@@ -39,27 +39,25 @@ struct Stretch {
     std::size_t first, count;
 };
 
-/// A stretch of the components of both axes, mixed over the neighbours of a row's texel: [axis][component].
+/// A stretch of the components of both axes, mixed over the neighbours of a row's texel: [axis][component]. Those
+/// without tilts count as if they had its own, since what is left of weights of either sign has no sum to divide by.
 void smooth_row(const GatherScene& scene, const SmoothingWeights& weights, const TexelTilts& tilts, std::size_t stride,
                 const Stretch& part, std::size_t row, Rgb* out) {
     const std::uint32_t texel = tilts.texel_of_row[row];
     const TiltFrame own = tilt_frame(scene, texel);
     std::fill_n(out, 2 * part.count, Rgb(0.0f));
-    float all = 0.0f;
     for (std::uint32_t k = weights.first[texel]; k < weights.first[texel + 1]; ++k) {
-        const std::uint32_t from = tilts.row_of_texel[weights.texel[k]];
-        if (from == ~0u) continue;
+        const std::uint32_t neighbour = tilts.row_of_texel[weights.texel[k]] == ~0u ? texel : weights.texel[k];
+        const std::uint32_t from = tilts.row_of_texel[neighbour];
         const float weight = weights.weight[k];
-        const TiltFrame other = tilt_frame(scene, weights.texel[k]);
+        const TiltFrame other = tilt_frame(scene, neighbour);
         const Rgb *u = tilts.rows.data() + from * stride + part.first, *v = u + stride / 2;
         for (std::size_t axis = 0; axis < 2; ++axis) {
             const Vec3& to = axis == 0 ? own.u : own.v;
             const float of_u = weight * glm::dot(to, other.u), of_v = weight * glm::dot(to, other.v);
             for (std::size_t i = 0; i < part.count; ++i) out[axis * part.count + i] += of_u * u[i] + of_v * v[i];
         }
-        all += weight;
     }
-    for (std::size_t i = 0; all > 0.0f && i < 2 * part.count; ++i) out[i] /= all;
 }
 
 }  // namespace

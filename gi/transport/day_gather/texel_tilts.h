@@ -33,8 +33,8 @@ TexelTilts texel_tilts(const GatherScene& scene, const GatherHits& hits, const D
                        const HalvedLight& light, const std::vector<bool>& wanted, const GatherSettings& settings,
                        const StageProgress& progress);
 
-/// Neighbours mixed as their irradiance is (gi/surface/smooth.h), each turned into the other's frame; those without
-/// tilts are left out.
+/// Neighbours mixed as their irradiance is (gi/surface/smooth.h), each turned into the other's frame; in place of
+/// those without tilts the texel itself.
 void smooth_tilts(const GatherScene& scene, const SmoothingWeights& weights, std::size_t components, TexelTilts& tilts);
 
 /// Shares of a ray's light in the two tilts against its share in the irradiance.
