@@ -16,6 +16,9 @@ namespace {
 constexpr double kMostTimesRays = 8;  // a texel's first rays, that it may be given on top
 constexpr float kNook = 0.5f;         // of a texel's width: mean distance of what is seen from a crack between things
 constexpr double kLeak = 0.1;  // of the brightness of a cell's brightest part, below which its darkest is shown alone
+// Of the brightness beside it, from which on a place under something is shown too: lit by as much, it is seen from as
+// many places.
+constexpr double kSeen = 0.5;
 
 /// Texels whose front lies in the open.
 std::vector<bool> in_the_open(const Texels& texels, const GatherHits& hits) {
@@ -50,25 +53,6 @@ std::vector<bool> shown(const Atlas& atlas, const Texels& texels, const GatherHi
     return result;
 }
 
-/// Cells that show nothing of their own show the nearest bare texel beside them, not what lies as near but deeper under
-/// what hides them.
-/// row   per texel; those of hidden cells are changed
-void show_bare_neighbours(const Atlas& atlas, const Texels& texels, const std::vector<bool>& bare,
-                          std::vector<std::uint32_t>& row) {
-    const std::vector<std::uint32_t> own = row;
-    for (const std::uint32_t t : texels.texel_of_cell) {
-        if (t == kNoTexel || own[t] != kNoTexel) continue;
-        float least = INFINITY;
-        for_texels_around(atlas, texels, t, 1, [&](std::uint32_t other) {
-            if (own[other] == kNoTexel) return;
-            texels.for_parts(other, [&](std::uint32_t part) {
-                const float away = glm::distance(texels.position[part], texels.position[t]);
-                if (bare[part] && away < least) least = away, row[t] = own[other];
-            });
-        });
-    }
-}
-
 std::vector<bool> both(std::vector<bool> a, const std::vector<bool>& b) {
     for (std::size_t i = 0; i < a.size(); ++i) a[i] = a[i] && b[i];
     return a;
@@ -97,6 +81,27 @@ class Brightness {
     std::vector<Rgb> weights_;  // per component
 };
 
+/// Cells that show nothing of their own show the nearest bare texel beside them, not what lies as near but deeper under
+/// what hides them; but those that are seen show their own.
+/// row   per texel; those of hidden cells are changed
+void show_bare_neighbours(const SolvedDay& solved, const std::vector<bool>& bare, const std::vector<bool>& open,
+                          const Brightness& brightness, std::vector<std::uint32_t>& row) {
+    const Texels& texels = solved.texels;
+    const std::vector<std::uint32_t> own = row;
+    for (const std::uint32_t t : texels.texel_of_cell) {
+        if (t == kNoTexel || own[t] != kNoTexel) continue;
+        float least = INFINITY;
+        for_texels_around(solved.atlas, texels, t, 1, [&](std::uint32_t other) {
+            if (own[other] == kNoTexel) return;
+            texels.for_parts(other, [&](std::uint32_t part) {
+                const float away = glm::distance(texels.position[part], texels.position[t]);
+                if (bare[part] && away < least) least = away, row[t] = own[other];
+            });
+        });
+        if (row[t] != kNoTexel && open[t] && brightness(t) >= kSeen * brightness(row[t])) row[t] = t;
+    }
+}
+
 /// Of the parts of a cell that are shown, the darkest when the brightest is so much brighter that a mean would be light
 /// through a wall: then the bright side is dark along the wall's foot. Not what is black and out of reach, as below the
 /// ground.
@@ -123,8 +128,10 @@ void mix(const GatherHits& hits, const std::vector<std::uint32_t>& parts, std::s
     for (std::size_t r = 0; r < components; ++r) rows[parts[0] * components + r] = sum[r] / points;
 }
 
-/// The parts of a cell that are shown, without those that are black, and without nooks if there are others.
-std::vector<std::uint32_t> lit_parts(const SolvedDay& solved, const std::vector<bool>& shown, std::uint32_t first) {
+/// The parts of a cell that are shown, without those that are black, and without nooks if there are others; after them
+/// those under something that are seen.
+std::vector<std::uint32_t> lit_parts(const SolvedDay& solved, const std::vector<bool>& shown,
+                                     const Brightness& brightness, std::uint32_t first) {
     std::vector<std::uint32_t> parts;
     solved.texels.for_parts(first, [&](std::uint32_t part) {
         if (shown[part] && !solved.hits.buried(part)) parts.push_back(part);
@@ -133,18 +140,25 @@ std::vector<std::uint32_t> lit_parts(const SolvedDay& solved, const std::vector<
         return solved.hits.nearness[part] < kNook * solved.texels.width[part];
     };
     if (!std::all_of(parts.begin(), parts.end(), nook)) std::erase_if(parts, nook);
+    double brightest = 0.0;
+    for (const std::uint32_t part : parts) brightest = std::max(brightest, brightness(part));
+    if (brightest == 0.0) return parts;
+    solved.texels.for_parts(first, [&](std::uint32_t part) {
+        const bool hidden = !shown[part] && !solved.hits.buried(part);
+        if (hidden && brightness(part) >= kSeen * brightest) parts.push_back(part);
+    });
     return parts;
 }
 
 /// Which row each texel shows, its own but where a cell has several parts.
-std::vector<std::uint32_t> rows_of_texels(const SolvedDay& solved, const std::vector<bool>& shown, LightmapRows& rows) {
-    const Brightness brightness(rows);
+std::vector<std::uint32_t> rows_of_texels(const SolvedDay& solved, const std::vector<bool>& shown,
+                                          const Brightness& brightness, LightmapRows& rows) {
     std::vector<std::uint32_t> result(shown.size(), kNoTexel);
     for (std::uint32_t t = 0; t < shown.size(); ++t) {
         if (shown[t]) result[t] = t;
         const bool first = solved.texels.texel_of_cell[solved.texels.cell[t]] == t;
         if (!first || solved.texels.next_part[t] == kNoTexel) continue;
-        const std::vector<std::uint32_t> parts = lit_parts(solved, shown, t);
+        const std::vector<std::uint32_t> parts = lit_parts(solved, shown, brightness, t);
         if (parts.empty()) continue;
         const std::optional<std::uint32_t> dark = part_to_keep_dark(solved, parts, brightness);
         if (!dark) mix(solved.hits, parts, solved.day.basis.components, rows.texels);
@@ -201,9 +215,10 @@ LightmapRows lightmap_rows(SolvedDay& solved, const StageProgress& progress) {
     smooth_all(solved, open, result);
     result.shape.width = solved.atlas.width, result.shape.height = solved.atlas.height;
     result.shape.corner_uvs = solved.atlas.corner_uvs;
+    const Brightness brightness(result);
     std::vector<std::uint32_t> row =
-        rows_of_texels(solved, shown(solved.atlas, solved.texels, solved.hits, open), result);
-    show_bare_neighbours(solved.atlas, solved.texels, bare(solved.texels, open), row);
+        rows_of_texels(solved, shown(solved.atlas, solved.texels, solved.hits, open), brightness, result);
+    show_bare_neighbours(solved, bare(solved.texels, open), open, brightness, row);
     result.row_of_pixel = rows_of_pixels(solved.atlas, solved.texels, row);
     return result;
 }

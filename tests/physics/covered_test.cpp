@@ -114,6 +114,21 @@ TEST(Covered, TheWallBesideAPanelThatLiesOnItIsAsBrightAsItIs) {
     EXPECT_LT(most, 1.1);
 }
 
+// Behind a bar much narrower than a texel more than half of the light arrives, and it can be looked at.
+TEST(Covered, TheWallBehindAThinBarIsDarkerThanBesideIt) {
+    constexpr float kBar = 0.03f;
+    double sum = 0.0;
+    for (int i = 0; i < kPlaces; ++i) {
+        const float left = place_of_panel(i).x;
+        TestScene made = wall(std::nullopt);
+        made.box(made.add(lambert(Rgb(0.02f))), Vec3(left, 0, kGap), Vec3(left + kBar, 3, kGap + kThick));
+        const Vec3 place(left + 0.5f * kBar, 1.5f, 0);
+        sum += Lit(made).at(place) / traced(made, place, Vec3(0, 0, 1)) / kPlaces;
+    }
+    EXPECT_GT(sum, 1.0);
+    EXPECT_LT(sum, 1.34);
+}
+
 TEST(Covered, UnderATableItIsAsDarkAsItIs) {
     TestScene made = table();
     const LitPlate lit(made);
