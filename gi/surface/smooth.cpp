@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kNeighbours = 48;
 constexpr float kSigma = 1.6f;            // of the Gaussian, texels
-constexpr float kSigmaOfNearness = 0.3f;  // and at most this share of the mean distance of what is seen
+constexpr float kSigmaOfNearness = 0.2f;  // and at most this share of the mean distance of what is seen
 constexpr float kReach = 2.5f;            // sigmas
 constexpr float kMinCosine = 0.9f;
 constexpr float kPlane = 0.25f;  // texels out of the tangent plane at which the weight falls to 1/e

@@ -15,7 +15,7 @@ struct SmoothingWeights {
     std::vector<float> weight;
 };
 
-/// Neighbours on the same surface that see each other: within about two texels and a third of the distance to what
+/// Neighbours on the same surface that see each other: within about two texels and a fifth of the distance to what
 /// lights them (`nearness`, metres), facing alike, in one plane, with free sight just above the surface. Light that
 /// changes evenly along the surface stays as it is, up to its rims. usable    texels that hold light; the others get no
 /// neighbours and are nobody's

@@ -52,6 +52,23 @@ TEST(Smooth, LightThatChangesEvenlyStaysAsItIsUpToTheRims) {
     EXPECT_LT(worst, 0.03f * glm::length(slope) * texel);  // a mean is wrong by more than a texel's share
 }
 
+// Where what is seen is five texels away on average, light may bend within as many.
+TEST(Smooth, LightThatBendsNearItsSurroundingsStaysNearlyAsItIs) {
+    Smoothed s;
+    const float width = s.texels.width[0];
+    s.nearness.assign(s.texels.count(), 5.0f * width);
+    s.weights = smoothing_weights(s.rays, s.texels, s.nearness, std::vector<bool>(s.texels.count(), true));
+    std::vector<Rgb> rows;
+    for (const Vec3& p : s.texels.position) rows.push_back(Rgb((p.x - 2.0f) * (p.x - 2.0f)));
+    const std::vector<Rgb> before = rows;
+    smooth(s.weights, 1, rows);
+    for (std::size_t t = 0; t < rows.size(); ++t) {
+        const Vec3& p = s.texels.position[t];
+        if (std::max(std::abs(p.x - 2.0f), std::abs(p.z - 2.0f)) > 1.0f) continue;
+        EXPECT_LT(std::abs(rows[t].x - before[t].x), 1.3f * width * width);
+    }
+}
+
 TEST(Smooth, NoiseFallsAtRimsToo) {
     const Smoothed s;
     Random random(3, 0, 0);
