@@ -58,7 +58,12 @@ void FreeSpace::spread() {
 }
 
 bool FreeSpace::reachable(const Vec3& place) const {
-    const glm::ivec3 own = cell_of(place);
+    glm::ivec3 own = cell_of(place);
+    // The border belongs to the cells behind it, wherever rounding has put a place on it.
+    for (int axis = 0; axis < 3; ++axis) {
+        const float beyond = std::max(place[axis] - box_.max[axis], box_.min[axis] - place[axis]);
+        if (beyond <= kTouching * cell_) own[axis] = std::clamp(own[axis], 0, counts_[axis] - 1);
+    }
     if (!inside(own)) return false;
     if (reachable_from(own, place)) return true;
     // The own cell's centre may lie behind a surface that this place is before.

@@ -18,8 +18,8 @@ class FreeSpace {
     /// At all cells from whose centres the sky is seen straight above.
     void start_under_the_sky();
     void spread();
-    /// Whether nothing lies between this place and the centre of a reached cell: its own or one beside it. False outside
-    /// of the box.
+    /// Whether nothing lies between this place and the centre of a reached cell: its own or one beside it. False
+    /// outside of the box; its border is inside.
     bool reachable(const Vec3& place) const;
     /// Share of reached cells among those that a box overlaps.
     double reached_share(const Bounds& box) const;
