@@ -17,8 +17,10 @@ constexpr float kSmallest = 0.25f;   // metres, of cells of the level that ends 
 constexpr int kFinest = 4, kCoarsest = 12;
 constexpr float kBeforeWall =
     0.05f;                       // sides between a wall and the sample that is taken in place of a corner behind it
-constexpr double kUnseen = 1.0;  // error of a cell in which nothing could be measured, over the mean light
-constexpr float kFloor = 0.1f;   // of the volume's mean light that errors are compared with, beside the light there
+constexpr double kUnseen = 1.0;  // error of a cell in which nothing could be measured, over the light; the most that
+                                 // any place counts with, lest a lamp's surroundings at night take all cells
+constexpr double kMoving = 63.0;  // what errors count where things move, on top of what they count everywhere
+constexpr float kFloor = 0.1f;    // of the volume's mean light that errors are compared with, beside the light there
 
 struct LatticeHash {
     std::size_t operator()(const Lattice& p) const {
@@ -42,7 +44,7 @@ struct Tested {
     bool parted = false;  // by a plane between exactly two groups
     std::optional<Vec4> plane;
     double error = 0.0;   // worst, over the target; 1 and less: well enough
-    double square = 0.0;  // mean square error, over the volume's mean light, times the free space of the cell
+    double square = 0.0;  // mean square error, over the light, times the free space of the cell and what it counts
 };
 
 class Refiner {
@@ -115,12 +117,19 @@ class Refiner {
         std::vector<std::uint32_t> places;
         for (const std::uint32_t n : leaves)
             for (int p = 0; p < kLeafPlaces; ++p)
-                if (tested_[n].leaf.side[std::size_t(p)] >= 0 && (is_corner(p) || is_test(p)))
+                if (tested_[n].leaf.side[std::size_t(p)] >= 0 &&
+                    (is_corner(p) || is_test(p) || !whole(tested_[n].leaf)))
                     places.push_back(tested_[n].leaf.place[std::size_t(p)]);
         sample(std::move(places), progress);
         sample_before_walls(leaves);
         for_each_parallel(leaves.size(), silent, [&](std::size_t i) { judge(leaves[i]); });
         waiting_.insert(waiting_.end(), leaves.begin(), leaves.end());
+    }
+
+    /// Where something stands in a cell, as beside an opening, the middles of its edges tell what the others cannot;
+    /// they are sampled sooner or later.
+    static bool whole(const RefinedLeaf& leaf) {
+        return std::all_of(leaf.side.begin(), leaf.side.end(), [](int side) { return side == 0; });
     }
 
     void find_places(const std::vector<std::uint32_t>& leaves) {
@@ -279,12 +288,26 @@ class Refiner {
             tested.error = std::max(tested.error, found.worst);
             tested.square += found.square * volume * double(places) / kLeafPlaces;
         }
+        tested.square *= 1.0 + kMoving * moving_share(node);
         if (node.level < settings_.geometry_level && members < kLeafPlaces) tested.error = kOutlier;
+    }
+
+    /// Of a cell, that the swept box takes which takes most of it; most of these overlap.
+    double moving_share(const Octree::Node& n) const {
+        const Bounds box{out_.octree.place(n.at), out_.octree.place(n.at + n.units())};
+        const Vec3 size = box.max - box.min;
+        double most = 0.0;
+        for (const Bounds& b : regions_) {
+            if (b.empty()) continue;
+            const Vec3 both = glm::max(glm::min(b.max, box.max) - glm::max(b.min, box.min), Vec3(0.0f)) / size;
+            most = std::max(most, double(both.x) * double(both.y) * double(both.z));
+        }
+        return most;
     }
 
     struct SideError {
         double worst = 0.0;   // over the target
-        double square = 0.0;  // mean, over the volume's mean light
+        double square = 0.0;  // mean, over the light where it was measured
     };
 
     /// What is known about light at a corner: a sample, and where in [0,1]^3 it was taken.
@@ -303,7 +326,7 @@ class Refiner {
         for (const StandIn& c : corners) result.worst = std::max(result.worst, by_controls(*c.sample, length));
         double tests = 0.0;
         for (int p = 0; p < kLeafPlaces; ++p)
-            if (is_test(p) && tested.leaf.side[std::size_t(p)] == side && sample_at(tested.leaf, p))
+            if (!is_corner(p) && tested.leaf.side[std::size_t(p)] == side && sample_at(tested.leaf, p))
                 compare(corners, length, *sample_at(tested.leaf, p), t_of(p), tests, result);
         for (const RefinedLeaf::WallSample& before : tested.leaf.before_walls)
             if (is_test(before.place) && before.side == side)
@@ -322,7 +345,8 @@ class Refiner {
             tests += 1.0;
             if (left <= 0.0 || mean <= 0.0) continue;
             result.worst = std::max(result.worst, left / light / double(settings_.error));
-            result.square += left * left / (mean * mean);
+            const double share = std::min(left / light, kUnseen);
+            result.square += share * share;
         }
     }
 
