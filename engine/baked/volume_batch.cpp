@@ -65,16 +65,17 @@ Rgb shaded(const Row& sh, const Vec3& normal) {
     const glsl::Sh9 lobe = glsl::sh_irradiance_weights(normal);
     Rgb sum(0.0f);
     for (std::size_t i = 0; i < 9; ++i) sum += lobe.c[i] * coefficient(sh, i);
-    return glm::max(sum, Rgb(0.0f));
+    return glsl::volume_held(sum, lobe.c[0] * coefficient(sh, 0));
 }
 
 /// The first band alone changes its sign from side to side.
 TwoSided shaded_on_both(const Row& sh, const Vec3& normal) {
     const glsl::Sh9 lobe = glsl::sh_irradiance_weights(normal);
-    Rgb even = lobe.c[0] * coefficient(sh, 0), odd(0.0f);
+    const Rgb mean = lobe.c[0] * coefficient(sh, 0);
+    Rgb even = mean, odd(0.0f);
     for (std::size_t i = 1; i < 4; ++i) odd += lobe.c[i] * coefficient(sh, i);
     for (std::size_t i = 4; i < 9; ++i) even += lobe.c[i] * coefficient(sh, i);
-    return {glm::max(even + odd, Rgb(0.0f)), glm::max(even - odd, Rgb(0.0f))};
+    return {glsl::volume_held(even + odd, mean), glsl::volume_held(even - odd, mean)};
 }
 
 }  // namespace

@@ -114,6 +114,21 @@ TEST(IrradianceVolume, is_never_negative) {
     EXPECT_EQ(light_of(volume).irradiance(Vec3(1.5f), Vec3(0, -1, 0)), Rgb(0.0f));
 }
 
+// As cubics swing beside a bright opening: the mean is right, and one side falls short of nothing.
+TEST(IrradianceVolume, is_not_black_where_there_is_light) {
+    const auto volume = cell_of([](int, int i) { return i == 0 ? 1.0f : i == 1 ? 2.0f : 0.0f; });
+    const double mean = kPi * 0.282094792;
+    const VolumeLight light = light_of(volume);
+    const std::vector<Vec3> places(2, Vec3(1.5f)), normals = {Vec3(0, -1, 0), Vec3(0, 1, 0)};
+    std::vector<Rgb> batch(2);
+    VolumeBatch(light).irradiance(places, normals, batch);
+    for (const double below : {double(light.irradiance(places[0], normals[0]).g), double(batch[0].g)}) {
+        EXPECT_GT(below, 0.02 * mean);
+        EXPECT_LT(below, 0.1 * mean);
+    }
+    EXPECT_GT(batch[1].g, 2.0 * mean);
+}
+
 TEST(IrradianceVolume, sums_its_components_each_with_its_colour) {
     auto volume = cell_of([](int, int i) { return i == 0 ? 2.0f : 0.0f; });
     const std::vector<std::int16_t> values = volume.values;
