@@ -123,7 +123,7 @@ TEST(Covered, TheWallBehindAThinBarIsDarkerThanBesideIt) {
         TestScene made = wall(std::nullopt);
         made.box(made.add(lambert(Rgb(0.02f))), Vec3(left, 0, kGap), Vec3(left + kBar, 3, kGap + kThick));
         const Vec3 place(left + 0.5f * kBar, 1.5f, 0);
-        sum += Lit(made).at(place) / traced(made, place, Vec3(0, 0, 1)) / kPlaces;
+        sum += LitPlate(made).at(place) / traced(made, place, Vec3(0, 0, 1)) / kPlaces;
     }
     EXPECT_GT(sum, 1.0);
     EXPECT_LT(sum, 1.34);
