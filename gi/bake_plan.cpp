@@ -19,9 +19,12 @@ constexpr double kMoreRays = 2.0 / 3.0;
 constexpr int kFewestRays = 32, kMostRays = 1024;
 // Samples of a volume look at the whole sphere and are averaged with few neighbours. A bright window is a hundredth of
 // it: of 144 rays one or two meet it, and samples side by side differ by half of their light.
-constexpr double kPreviewSampleRays = 576;
+constexpr double kPreviewSampleRays = 432;
 constexpr int kFewestSampleRays = 96, kMostSampleRays = 3072;
-constexpr double kPreviewCells = 2000, kMostCells = 20000;
+constexpr double kPreviewCells = 3000, kMostCells = 20000;
+// Of how much finer than preview a bake is, for the number of cells: every sample waits in memory until records are
+// fitted.
+constexpr double kCellsPower = 0.68;
 // Below it the sun adds nothing to the night's own light (engine/scene/sky.cpp draws no sky there).
 constexpr double kDeepNight = -20.0 * kDegree;
 
@@ -46,7 +49,8 @@ VolumeSettings volume_settings(const BakeSettings& settings) {
     const double finer = kPreviewError / settings.error;
     if (result.error <= 0.0f) result.error = float(std::clamp(0.8 * settings.error, 0.03, 0.2));
     if (result.most_cells == 0)
-        result.most_cells = std::size_t(settings.tuning.cells * std::clamp(kPreviewCells * finer, 500.0, kMostCells));
+        result.most_cells = std::size_t(settings.tuning.cells *
+                                        std::clamp(kPreviewCells * std::pow(finer, kCellsPower), 500.0, kMostCells));
     if (result.rays == 0) result.rays = rays_per_sample(settings.error);
     result.seed = settings.seed;
     return result;

@@ -20,6 +20,9 @@ constexpr float kBeforeWall =
 constexpr double kUnseen = 1.0;  // error of a cell in which nothing could be measured, over the light; the most that
                                  // any place counts with, lest a lamp's surroundings at night take all cells
 constexpr double kMoving = 63.0;  // what errors count where things move, on top of what they count everywhere
+// What errors count where surfaces stand around within the size of a room, on top: what is indoors is seen from near.
+constexpr double kEnclosed = 5.0;
+constexpr float kRoom = 5.0f;
 constexpr float kFloor = 0.1f;    // of the volume's mean light that errors are compared with, beside the light there
 
 struct LatticeHash {
@@ -288,8 +291,20 @@ class Refiner {
             tested.error = std::max(tested.error, found.worst);
             tested.square += found.square * volume * double(places) / kLeafPlaces;
         }
-        tested.square *= 1.0 + kMoving * moving_share(node);
+        tested.square *= 1.0 + kMoving * moving_share(node) + kEnclosed * enclosed(tested.leaf);
         if (node.level < settings_.geometry_level && members < kLeafPlaces) tested.error = kOutlier;
+    }
+
+    /// How closely surfaces stand around a leaf, 0 to 1.
+    double enclosed(const RefinedLeaf& leaf) const {
+        double sum = 0.0;
+        int count = 0;
+        for (int p = 0; p < kLeafPlaces; ++p)
+            if (const VolumeSample* sample = is_corner(p) || is_test(p) ? sample_at(leaf, p) : nullptr) {
+                const double share = std::min(1.0, double(kRoom / sample->nearness));
+                sum += share * share, ++count;
+            }
+        return count > 0 ? sum / count : 0.0;
     }
 
     /// Of a cell, that the swept box takes which takes most of it; most of these overlap.

@@ -12,10 +12,15 @@ namespace {
 
 using Field = std::function<float(const Vec3&)>;
 
+float far_from_all(const Vec3&) {
+    return 1e9f;
+}
+
 /// The same on all sides, at one hour, and without a word on how it changes.
-SampleVolume sampled(const Field& field) {
-    return [field](const Vec3& place, std::uint64_t) {
+SampleVolume sampled(const Field& field, const Field& nearness) {
+    return [field, nearness](const Vec3& place, std::uint64_t) {
         VolumeSample sample;
+        sample.nearness = nearness(place);
         sample.judged.assign(4 * kJudgedSides, 0.0f);
         std::fill_n(sample.judged.begin(), kJudgedSides, field(place));
         sample.light = sample.judged;
@@ -33,14 +38,14 @@ TestScene yard() {
     return made;
 }
 
-RefinedVolume refined(TestScene& scene, const Field& field, const std::vector<Bounds>& regions,
-                      VolumeSettings settings) {
+RefinedVolume refined(TestScene& scene, const Field& field, const std::vector<Bounds>& regions, VolumeSettings settings,
+                      const Field& nearness = far_from_all) {
     const RayScene& rays = scene.trace();
     FreeSpace space(rays);
     space.start_under_the_sky();
     space.spread();
     settings.error = 0.03f;
-    return refine_volume(rays, space, regions, sampled(field), settings, StageProgress{Progress{}});
+    return refine_volume(rays, space, regions, sampled(field, nearness), settings, StageProgress{Progress{}});
 }
 
 /// Of the leaf that holds a place.
@@ -79,6 +84,16 @@ TEST(VolumeRefine, CellsGoWhereThingsMove) {
     const RefinedVolume found =
         refined(scene, [](const Vec3& p) { return 1.0f + bump(p, kHere, 1.0f) + bump(p, kThere, 1.0f); }, {swept},
                 {.max_level = 4, .most_cells = 512 + 7 * 24});
+    EXPECT_TRUE(found.budget_spent);
+    EXPECT_GT(level_at(found.octree, kThere), level_at(found.octree, kHere));
+}
+
+// Of two places alike, the one that surfaces stand around, a room, has the finer cells.
+TEST(VolumeRefine, CellsGoIndoors) {
+    TestScene scene = yard();
+    const RefinedVolume found = refined(
+        scene, [](const Vec3& p) { return 1.0f + bump(p, kHere, 1.0f) + bump(p, kThere, 1.0f); }, {},
+        {.max_level = 4, .most_cells = 512 + 7 * 24}, [](const Vec3& p) { return p.x > 4.0f ? 3.0f : 60.0f; });
     EXPECT_TRUE(found.budget_spent);
     EXPECT_GT(level_at(found.octree, kThere), level_at(found.octree, kHere));
 }
