@@ -38,4 +38,12 @@ std::optional<CostRatio> cost_at_equal_error(std::span<const ChartPoint> ours, s
     return CostRatio{theirs.back().x / mine.front().x, true, 0, int(mine.size())};
 }
 
+std::vector<ChartPoint> bytes_and_error(const std::vector<RunResult>& runs, const std::string& axis,
+                                        const char* error) {
+    std::vector<ChartPoint> points;
+    for (const RunResult& run : runs)
+        if (run.axis == axis) points.push_back({*run.value("file_bytes"), *run.value(error), run.name});
+    return points;
+}
+
 }  // namespace daylit

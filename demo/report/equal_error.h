@@ -18,4 +18,7 @@ struct CostRatio {
 /// in logarithms. None when the other way is better than ours everywhere or there is nothing to compare.
 std::optional<CostRatio> cost_at_equal_error(std::span<const ChartPoint> ours, std::span<const ChartPoint> other);
 
+/// Of the runs of an axis: bytes of the file, and the value of this name.
+std::vector<ChartPoint> bytes_and_error(const std::vector<RunResult>& runs, const std::string& axis, const char* error);
+
 }  // namespace daylit

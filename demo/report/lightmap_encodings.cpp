@@ -211,16 +211,10 @@ void judge_points(const Uncompressed& day, const std::vector<Vec2>& uvs, const J
     run.values.merge(judge(found, judges.surface));
 }
 
-std::vector<ChartPoint> curve(const std::vector<RunResult>& runs, const std::string& axis, const char* error) {
-    std::vector<ChartPoint> points;
-    for (const RunResult& run : runs)
-        if (run.axis == axis) points.push_back({*run.value("file_bytes"), *run.value(error), run.name});
-    return points;
-}
-
 void compare(const std::vector<RunResult>& runs, const char* error, const char* key, const std::string& when,
              std::vector<Finding>& findings) {
-    const auto ratio = cost_at_equal_error(curve(runs, "tiles", error), curve(runs, "paper", error));
+    const auto ratio =
+        cost_at_equal_error(bytes_and_error(runs, "tiles", error), bytes_and_error(runs, "paper", error));
     if (!ratio) return;
     findings.push_back(
         {key, ratio->ratio,

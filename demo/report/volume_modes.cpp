@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kGatherRays = 4096;  // at a point
 constexpr int kMoreRays = 8;       // of a sample, times the plan's, so that noise does not hide what blends differ in
-constexpr int kLookUps = 50000;
+constexpr int kModeLookUps = 50000;
 
 LightScales scales_at(const LightModel& light, double hour) {
     return light.scales(hour, light.settings().clouds);
@@ -46,12 +46,12 @@ PointTruth gather_at(const VolumeEncoder& encoder, const LightBasis& basis, cons
 double seconds_of_a_look_up(const VolumeModeLight& light, const std::vector<SurfaceSample>& points) {
     Rgb sum(0.0f);
     const double start = thread_seconds();
-    for (std::size_t i = 0; i < kLookUps; ++i) {
+    for (std::size_t i = 0; i < kModeLookUps; ++i) {
         const SurfaceSample& p = points[i % points.size()];
         sum += light.irradiance(p.position, p.normal);
     }
     const double seconds = thread_seconds() - start;
-    return std::isfinite(sum.x) ? seconds / kLookUps : 0.0;
+    return std::isfinite(sum.x) ? seconds / kModeLookUps : 0.0;
 }
 
 RunResult judge_mode(const VolumeModePoint& point, const IrradianceVolume& volume, const PointTruth& reference,
@@ -78,19 +78,12 @@ RunResult judge_mode(const VolumeModePoint& point, const IrradianceVolume& volum
     return run;
 }
 
-std::vector<ChartPoint> curve(const std::vector<RunResult>& runs, const std::string& axis, const char* error) {
-    std::vector<ChartPoint> points;
-    for (const RunResult& run : runs)
-        if (run.axis == axis) points.push_back({*run.value("file_bytes"), *run.value(error), run.name});
-    return points;
-}
-
 /// What another way takes in bytes at equal error, and how far each goes.
 Finding equal_bytes(const std::vector<RunResult>& runs, const std::string& axis, const char* error,
                     const std::string& against, const CostRatio& ratio) {
     const std::string ours = runs.front().axis;
     const auto best = [&](const std::string& of) {
-        const std::vector<ChartPoint> points = curve(runs, of, error);
+        const std::vector<ChartPoint> points = bytes_and_error(runs, of, error);
         return *std::min_element(points.begin(), points.end(),
                                  [](const ChartPoint& a, const ChartPoint& b) { return a.y < b.y; });
     };
@@ -118,8 +111,8 @@ std::vector<Finding> findings(const std::vector<RunResult>& runs) {
                                Error{"gather_p95", "95th percentile against the gather", "gather_p95"},
                                Error{"nrmse", "nrmse against the reference", "reference"}})
         for (const auto& [axis, key] : {std::pair("uniform grid", "grid"), {"trilinear", "trilinear"}}) {
-            const auto ratio =
-                cost_at_equal_error(curve(runs, runs.front().axis, error.measure), curve(runs, axis, error.measure));
+            const auto ratio = cost_at_equal_error(bytes_and_error(runs, runs.front().axis, error.measure),
+                                                   bytes_and_error(runs, axis, error.measure));
             if (!ratio) continue;
             all.push_back(equal_bytes(runs, axis, error.measure, error.said, *ratio));
             all.back().key = std::string(key) + "_over_" + error.key;

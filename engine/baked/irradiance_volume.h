@@ -10,6 +10,9 @@
 
 namespace daylit {
 
+/// Of a record's value: RGB of each coefficient.
+inline constexpr std::size_t kRecordNumbers = glsl::kVolumeNumbers;
+
 /// What is stored is *indirect* light: what comes from sky and surfaces, not straight from suns and lamps.
 struct IrradianceVolume {
     VolumeTree tree;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kRow = 32;  // kVolumeNumbers, padded to whole registers of any width
 constexpr std::size_t kRecord = 4 * kRow;
-constexpr std::size_t kAtOnce = 32;     // places found, and their records asked for, before any is summed up
+constexpr std::size_t kPlacesAtOnce = 32;  // places found, and their records asked for, before any is summed up
 constexpr std::size_t kCacheLine = 16;  // floats
 
 void ask_for(const float* record) {
@@ -16,9 +16,9 @@ void ask_for(const float* record) {
 }
 
 /// Eight numbers in one register, or in two where registers are shorter.
-using Lanes = float __attribute__((vector_size(32), aligned(4), may_alias));
-constexpr std::size_t kLanes = 8;
-static_assert(kRow % kLanes == 0);
+using PlaceLanes = float __attribute__((vector_size(32), aligned(4), may_alias));
+constexpr std::size_t kPlaceLanes = 8;
+static_assert(kRow % kPlaceLanes == 0);
 
 /// The eight corners of a cell: where their records lie, and how much each part counts.
 struct Corners {
@@ -28,13 +28,13 @@ struct Corners {
 
 // Sums stay in registers. Contraction is off, so that both forms below round alike.
 __attribute__((always_inline)) inline void sum_up(const Corners& corners, float* to) {
-    for (std::size_t block = 0; block < kRow; block += kLanes) {
-        Lanes sum{};
+    for (std::size_t block = 0; block < kRow; block += kPlaceLanes) {
+        PlaceLanes sum{};
         for (std::size_t corner = 0; corner < 8; ++corner)
             for (std::size_t part = 0; part < 4; ++part)
                 sum += corners.weights[corner][glm::length_t(part)] *
-                       *reinterpret_cast<const Lanes*>(corners.record[corner] + part * kRow + block);
-        *reinterpret_cast<Lanes*>(to + block) = sum;
+                       *reinterpret_cast<const PlaceLanes*>(corners.record[corner] + part * kRow + block);
+        *reinterpret_cast<PlaceLanes*>(to + block) = sum;
     }
 }
 
@@ -92,9 +92,9 @@ template <class Use>
 void VolumeBatch::look_up(std::span<const Vec3> places, const Use& use) const {
     const glsl::VolumeArrays arrays{tree_.grid(), tree_.nodes.data(), tree_.cells.data(), tree_.cuts.data(), nullptr};
     const SumUp sum_up_here = best_sum_up();
-    std::array<glsl::VolumePlace, kAtOnce> found;
-    for (std::size_t first = 0; first < places.size(); first += kAtOnce) {
-        const std::size_t count = std::min(kAtOnce, places.size() - first);
+    std::array<glsl::VolumePlace, kPlacesAtOnce> found;
+    for (std::size_t first = 0; first < places.size(); first += kPlacesAtOnce) {
+        const std::size_t count = std::min(kPlacesAtOnce, places.size() - first);
         for (std::size_t i = 0; i < count; ++i) {
             found[i] = glsl::volume_place(arrays, places[first + i]);
             const glsl::VolumeCell& cell = tree_.cells[found[i].cell];

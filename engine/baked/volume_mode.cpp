@@ -8,7 +8,7 @@
 namespace daylit {
 namespace {
 
-constexpr std::array<const char*, 4> kNames = {"auto", "object", "vertex", "pixel"};
+constexpr std::array<const char*, 4> kModeNames = {"auto", "object", "vertex", "pixel"};
 constexpr float kShareOfCell = 0.25f;  // over which light is as good as even
 
 float local_cell(const Bounds& box, const VolumeTree& tree) {
@@ -23,14 +23,14 @@ float local_cell(const Bounds& box, const VolumeTree& tree) {
 }  // namespace
 
 VolumeMode parse_volume_mode(const std::string& name) {
-    const auto found = std::find(kNames.begin(), kNames.end(), name);
-    if (found == kNames.end())
+    const auto found = std::find(kModeNames.begin(), kModeNames.end(), name);
+    if (found == kModeNames.end())
         throw UsageError("--volume-mode", "'" + name + "' is not one of auto, object, vertex, pixel");
-    return VolumeMode(found - kNames.begin());
+    return VolumeMode(found - kModeNames.begin());
 }
 
 const char* name(VolumeMode mode) {
-    return kNames[std::size_t(mode)];
+    return kModeNames[std::size_t(mode)];
 }
 
 VolumeMode volume_mode_of(const ThingSize& thing, const VolumeTree& tree) {

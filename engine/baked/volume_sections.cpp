@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::uint32_t kMostRoots = 4096;      // along an axis
 constexpr std::uint32_t kMostParts = 1u << 24;  // nodes, cells, records
-constexpr std::size_t kNumbers = glsl::kVolumeNumbers;
 
 Bytes code_shape(const IrradianceVolume& volume) {
     const VolumeTree& tree = volume.tree;
@@ -93,7 +92,8 @@ IrradianceVolume read_volume(const SectionFile& file) {
     IrradianceVolume volume;
     const Counts counts = decode_shape(file.open("VOLU"), volume);
     decode_tree(file.open("VOTR", tree_bytes(counts)), counts, volume.tree);
-    const std::size_t count = volume.tree.samples, numbers = std::size_t(volume.basis.components) * kNumbers * count;
+    const std::size_t count = volume.tree.samples,
+                      numbers = std::size_t(volume.basis.components) * kRecordNumbers * count;
     ByteReader r = file.open("VORE", 6 * sizeof(float) * count + 5 * numbers);
     volume.value_step = decode_steps(r, 3 * count);
     volume.change_step = decode_steps(r, 3 * count);

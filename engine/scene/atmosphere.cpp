@@ -101,8 +101,7 @@ inline Lanes mean_length(Lanes x, Lanes left, Lanes extinction, float length) {
 
 // ---- The medium: densities by height. ----
 
-constexpr double kGround = 6371e3, kTop = kGround + 100e3;  // m from the Earth's centre
-constexpr double kGroundAlbedo = 0.2;
+constexpr double kGround = 6371e3, kTop = kGround + 100e3;           // m from the Earth's centre
 constexpr double kRayleighHeight = 8000.0, kAerosolHeight = 1200.0;  // scale heights, m
 constexpr double kOzoneCentre = 25e3, kOzoneHalfWidth = 15e3;        // a tent, m
 constexpr double kOzonePeak = 300.0 * 2.687e20 / kOzoneHalfWidth;    // molecules/m^3 for 300 Dobson units

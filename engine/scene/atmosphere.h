@@ -10,6 +10,8 @@
 
 namespace daylit {
 
+inline constexpr double kGroundAlbedo = 0.2;  // of the Earth around, which lights the sky from below
+
 /// Share of the sun's disc above a flat horizon when its centre stands `elevation` radians over it: 0 to 1.
 double disc_fraction(double elevation);
 

@@ -22,8 +22,7 @@
 namespace daylit {
 namespace {
 
-constexpr int kMapWidth = 256, kMapHeight = 128;  // the horizon lies between rows 63 and 64
-constexpr float kGroundAlbedo = 0.2f;
+constexpr int kMapWidth = 256, kMapHeight = 128;        // the horizon lies between rows 63 and 64
 constexpr float kEyeHeight = 20.0f;                     // m
 constexpr float kNightRadiance = 2.5e-4f;               // cd/m^2
 constexpr double kAstronomicalNight = -20.0 * kDegree;  // below it the sun adds nothing to the night's own light

@@ -17,7 +17,6 @@
 namespace daylit {
 namespace {
 
-constexpr std::size_t kNumbers = glsl::kVolumeNumbers;
 constexpr int kPilots = 400;  // samples that the basis is chosen by,
 // with at least so many rays: what noise adds to their light would ask for components, in place of light that is there.
 constexpr int kPilotRays = 1024;
@@ -90,7 +89,7 @@ std::vector<Rgb> pilot_rows(const ProbeGather& gather, const FreeSpace& space, c
         const std::vector<float> mean = mean_of_halves(light);
         for (std::size_t side = 0; side < kSides.size(); ++side) {
             const glsl::Sh9 lobe = glsl::sh_irradiance_weights(kSides[side]);
-            for (std::size_t i = 0; i < kNumbers; ++i)
+            for (std::size_t i = 0; i < kRecordNumbers; ++i)
                 for (std::size_t r = 0; r < components; ++r)
                     rows[(p * kSides.size() + side) * components + r][glm::length_t(i % 3)] +=
                         lobe.c[i / 3] * mean[i * components + r];
@@ -125,8 +124,8 @@ class VolumeJudge {
         for (std::size_t part = 0; part < parts; ++part)
             for (std::size_t m = 0; m < weights_.size(); ++m) {
                 std::array<float, 9> sh{};
-                for (std::size_t i = 0; i < kNumbers; ++i) {
-                    const float* row = light + (part * kNumbers + i) * components_;
+                for (std::size_t i = 0; i < kRecordNumbers; ++i) {
+                    const float* row = light + (part * kRecordNumbers + i) * components_;
                     for (std::size_t r = 0; r < components_; ++r)
                         sh[i / 3] += weights_[m][r][glm::length_t(i % 3)] * row[r];
                 }
@@ -178,7 +177,7 @@ VolumeSample sample(const ProbeGather& gather, const Turn& turn, const VolumeJud
 /// keeps irradiance on every side at every judged moment from falling below zero by more than a share of the brightest
 /// side's: what little is left, look-ups cut at zero, while a wider window would dim the bright side. Returns lambda.
 float window(float* record, std::size_t components, const VolumeJudge& judge) {
-    const std::size_t numbers = kNumbers * components;
+    const std::size_t numbers = kRecordNumbers * components;
     std::vector<float> tried(record, record + numbers);
     float lambda = 0.0f;
     for (;;) {
@@ -307,7 +306,7 @@ std::array<int, 3> VolumeEncoder::roots() const {
 std::vector<float> VolumeEncoder::gathered(const Vec3& place, std::uint64_t key, int rays) const {
     std::vector<float> mean = mean_of_halves(
         state_->probes.at(place, key, {.rays = rays, .change = ProbeChange::None, .seed = state_->sampling.seed + 2}));
-    mean.resize(kNumbers * state_->leaving.components);
+    mean.resize(kRecordNumbers * state_->leaving.components);
     return mean;
 }
 
@@ -325,12 +324,13 @@ EncodedVolume VolumeEncoder::encode(const VolumeSettings& settings, const StageP
         refine_volume(s.rays, s.space, s.regions, take, settings,
                       {progress.report, progress.begin, 0.2 * progress.begin + 0.8 * progress.end});
     const OctreeCells cells = make_cells(refined.octree, same_light_by_rays(refined, s.space));
-    VolumeFit fit = fit_volume(cells, refined, kNumbers * components, settings.blend);
+    VolumeFit fit = fit_volume(cells, refined, kRecordNumbers * components, settings.blend);
     // Records inside of walls stand for what their cells interpolate, not for light that is there.
     for (std::size_t r = 0; r < cells.samples.size(); ++r)
         if (fit.measured[r])
-            result.window = std::max(
-                result.window, double(window(fit.records.data() + 4 * r * kNumbers * components, components, s.judge)));
+            result.window =
+                std::max(result.window,
+                         double(window(fit.records.data() + 4 * r * kRecordNumbers * components, components, s.judge)));
     result.volume.tree = cells.tree;
     result.volume.basis = s.basis.stored;
     store_records(fit.records, kStoredNoise, result.volume);

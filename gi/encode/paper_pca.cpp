@@ -15,7 +15,7 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-constexpr std::size_t kChunk = 2048;  // pixels whose sums belong together, whatever the threads
+constexpr std::size_t kPixelsAtOnce = 2048;  // pixels whose sums belong together, whatever the threads
 constexpr float kMostHalf = 65504.0f;
 constexpr double kLargestHalf = 16384.0;  // of scores: far from the end of halves
 constexpr double kNothing = 1e-13;        // of the largest variance: what rounding leaves
@@ -46,10 +46,11 @@ struct Moments {
 };
 
 Moments moments_of(const FilmRows& film, int channel) {
-    const std::size_t chunks = (film.at.size() + kChunk - 1) / kChunk;
+    const std::size_t chunks = (film.at.size() + kPixelsAtOnce - 1) / kPixelsAtOnce;
     std::vector<Moments> partial(chunks);
     tbb::parallel_for(std::size_t(0), chunks, [&](std::size_t i) {
-        const Matrix part = components_of(film, i * kChunk, std::min(film.at.size(), (i + 1) * kChunk), channel);
+        const Matrix part =
+            components_of(film, i * kPixelsAtOnce, std::min(film.at.size(), (i + 1) * kPixelsAtOnce), channel);
         partial[i] = {part.colwise().sum().transpose(), part.transpose() * part};
     });
     const Eigen::Index n = Eigen::Index(film.components);
@@ -138,9 +139,9 @@ PaperPca paper_pca(const FilmRows& film, std::size_t vectors) {
     for (int c = 0; c < 3; ++c) {
         const Matrix turn = weights_of(film, c) * basis;
         const Eigen::RowVectorXd of_mean = mean.transpose() * basis;
-        const std::size_t chunks = (result.pixels + kChunk - 1) / kChunk;
+        const std::size_t chunks = (result.pixels + kPixelsAtOnce - 1) / kPixelsAtOnce;
         tbb::parallel_for(std::size_t(0), chunks, [&](std::size_t i) {
-            const std::size_t first = i * kChunk, last = std::min(result.pixels, first + kChunk);
+            const std::size_t first = i * kPixelsAtOnce, last = std::min(result.pixels, first + kPixelsAtOnce);
             const Matrix part = (components_of(film, first, last, c) * turn).rowwise() - of_mean;
             for (Eigen::Index v = 0; v < kept; ++v)
                 for (std::size_t p = first; p < last; ++p)
@@ -167,8 +168,8 @@ std::vector<Rgb> PaperPca::light(double hour) const {
     std::vector<float> weights(count());
     for (std::size_t v = 0; v < weights.size(); ++v) weights[v] = mix(vectors.data() + v * hours.size());
     std::vector<Rgb> result(pixels, Rgb(mix(mean.data())));
-    tbb::parallel_for(std::size_t(0), (pixels + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-        const std::size_t first = chunk * kChunk, last = std::min(pixels, first + kChunk);
+    tbb::parallel_for(std::size_t(0), (pixels + kPixelsAtOnce - 1) / kPixelsAtOnce, [&](std::size_t chunk) {
+        const std::size_t first = chunk * kPixelsAtOnce, last = std::min(pixels, first + kPixelsAtOnce);
         for (std::size_t v = 0; v < weights.size(); ++v)
             for (int c = 0; c < 3; ++c) {
                 const std::uint16_t* plane = scores.data() + (3 * v + std::size_t(c)) * pixels;

@@ -11,8 +11,6 @@
 namespace daylit {
 namespace {
 
-constexpr std::size_t kNumbers = glsl::kVolumeNumbers;
-
 bool uses_changes(VolumeBlend blend) {
     return blend != VolumeBlend::Trilinear;
 }
@@ -30,7 +28,7 @@ Bytes code_kept(const IrradianceVolume& volume, const VolumeScheme& mode) {
     const auto kept_planes = [&](const auto& numbers, std::size_t planes) {
         std::remove_cvref_t<decltype(numbers)> result;
         for (std::size_t p = 0; p < planes; ++p) {
-            const auto first = numbers.begin() + std::ptrdiff_t(p * kNumbers * count);
+            const auto first = numbers.begin() + std::ptrdiff_t(p * kRecordNumbers * count);
             result.insert(result.end(), first, first + std::ptrdiff_t(kept * count));
         }
         return result;
@@ -50,11 +48,12 @@ void fill_hanging(const VolumeTree& tree, VolumeBlend blend, std::span<Vec4> rec
             const std::array<Vec4, 8> weights =
                 part == 0 ? blend_weights(blend, at.t[part], cell.box.w)
                           : blend_weights_change(blend, at.t[part], cell.box.w, int(part) - 1);
-            for (std::size_t i = 0; i < kNumbers; ++i) {
+            for (std::size_t i = 0; i < kRecordNumbers; ++i) {
                 float sum = 0.0f;
                 for (int corner = 0; corner < 8; ++corner)
-                    sum += glm::dot(weights[std::size_t(corner)], records[kNumbers * record_of(cell, corner) + i]);
-                records[kNumbers * (tree.samples + h) + i][glm::length_t(part)] = sum;
+                    sum +=
+                        glm::dot(weights[std::size_t(corner)], records[kRecordNumbers * record_of(cell, corner) + i]);
+                records[kRecordNumbers * (tree.samples + h) + i][glm::length_t(part)] = sum;
             }
         }
 }
@@ -100,7 +99,7 @@ VolumeModeLight::VolumeModeLight(const IrradianceVolume& volume, const VolumeSch
     fill_hanging(volume.tree, mode.blend, all);
     for (std::size_t r = 0; r < volume.tree.records(); ++r)
         for (std::size_t i = 0; i < std::size_t(numbers_); ++i) {
-            const Vec4& number = all[kNumbers * r + i];
+            const Vec4& number = all[kRecordNumbers * r + i];
             if (uses_changes(mode.blend))
                 records_.push_back(number);
             else
@@ -158,7 +157,7 @@ Rgb VolumeModeLight::irradiance(const Vec3& place, const Vec3& normal) const {
     const std::array<Vec4, 8> weights = blend_weights(mode_.blend, at.t, cell.box.w);
     glsl::VolumeSh sh{};
     if (records_.empty()) {
-        float sum[kNumbers] = {};
+        float sum[kRecordNumbers] = {};
         for (int corner = 0; corner < 8; ++corner) {
             const float* record = values_.data() + std::size_t(numbers_) * record_of(cell, corner);
             const float weight = weights[std::size_t(corner)].x;
@@ -166,7 +165,7 @@ Rgb VolumeModeLight::irradiance(const Vec3& place, const Vec3& normal) const {
         }
         for (int i = 0; i < numbers_; ++i) sh.c[i / 3][i % 3] = sum[i];
     } else {
-        Vec4 sum[kNumbers] = {};
+        Vec4 sum[kRecordNumbers] = {};
         for (int corner = 0; corner < 8; ++corner) {
             const Vec4* record = records_.data() + std::size_t(numbers_) * record_of(cell, corner);
             const Vec4& weight = weights[std::size_t(corner)];

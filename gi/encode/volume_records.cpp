@@ -8,7 +8,6 @@
 namespace daylit {
 namespace {
 
-constexpr std::size_t kNumbers = glsl::kVolumeNumbers;
 constexpr float kMostValue = 32767.0f, kMostChange = 127.0f;
 // The cosine lobe in bands 0, 1 and 2 (Ramamoorthi and Hanrahan 2001); what one and the same error of every coefficient
 // does to irradiance, RMS over normals: the root of (lobe0^2 + 3 lobe1^2 + 5 lobe2^2) / (4 pi).
@@ -22,22 +21,22 @@ constexpr float kChangeSteps = 3.4f;
 class Record {
   public:
     Record(std::span<const float> all, std::size_t record, std::size_t components)
-        : first_(all.data() + record * 4 * kNumbers * components), components_(components) {}
+        : first_(all.data() + record * 4 * kRecordNumbers * components), components_(components) {}
 
     float at(std::size_t part, std::size_t i, std::size_t component) const {
-        return first_[(part * kNumbers + i) * components_ + component];
+        return first_[(part * kRecordNumbers + i) * components_ + component];
     }
     float largest(std::size_t first_part, std::size_t last_part, std::size_t channel) const {
         float found = 0.0f;
         for (std::size_t part = first_part; part <= last_part; ++part)
-            for (std::size_t i = channel; i < kNumbers; i += 3)
+            for (std::size_t i = channel; i < kRecordNumbers; i += 3)
                 for (std::size_t r = 0; r < components_; ++r) found = std::max(found, std::abs(at(part, i, r)));
         return found;
     }
     /// Of irradiance, RMS over normals and moments.
     float brightness(std::size_t channel) const {
         double square = 0.0;
-        for (std::size_t i = channel; i < kNumbers; i += 3) {
+        for (std::size_t i = channel; i < kRecordNumbers; i += 3) {
             const double lobe = kLobe[i < 3 ? 0 : i < 12 ? 1 : 2];
             for (std::size_t r = 0; r < components_; ++r) square += std::pow(lobe * double(at(0, i, r)), 2);
         }
@@ -54,8 +53,8 @@ class Record {
 void store_records(std::span<const float> records, float noise, IrradianceVolume& volume) {
     const std::size_t components = std::size_t(volume.basis.components), count = volume.tree.samples;
     const std::vector<float> sides = record_sides(volume.tree);
-    volume.values.assign(components * kNumbers * count, 0);
-    volume.changes.assign(3 * components * kNumbers * count, 0);
+    volume.values.assign(components * kRecordNumbers * count, 0);
+    volume.changes.assign(3 * components * kRecordNumbers * count, 0);
     volume.value_step.assign(3 * count, 0.0f);
     volume.change_step.assign(3 * count, 0.0f);
     // Rounding to steps errs by step / sqrt(12), in every component alike.
@@ -70,12 +69,12 @@ void store_records(std::span<const float> records, float noise, IrradianceVolume
             volume.value_step[channel * count + s] = step;
             volume.change_step[channel * count + s] = change_step;
             for (std::size_t r = 0; r < components; ++r)
-                for (std::size_t i = channel; i < kNumbers; i += 3) {
+                for (std::size_t i = channel; i < kRecordNumbers; i += 3) {
                     if (step > 0.0f)
-                        volume.values[(r * kNumbers + i) * count + s] =
+                        volume.values[(r * kRecordNumbers + i) * count + s] =
                             std::int16_t(std::lround(std::clamp(record.at(0, i, r) / step, -kMostValue, kMostValue)));
                     for (std::size_t a = 0; a < 3; ++a)
-                        volume.changes[((r * 3 + a) * kNumbers + i) * count + s] = std::int8_t(std::lround(
+                        volume.changes[((r * 3 + a) * kRecordNumbers + i) * count + s] = std::int8_t(std::lround(
                             std::clamp(record.at(a + 1, i, r) * sides[s] / change_step, -kMostChange, kMostChange)));
                 }
         }

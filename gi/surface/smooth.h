@@ -17,8 +17,9 @@ struct SmoothingWeights {
 
 /// Neighbours on the same surface that see each other: within about two texels and a fifth of the distance to what
 /// lights them (`nearness`, metres), facing alike, in one plane, with free sight just above the surface. Light that
-/// changes evenly along the surface stays as it is, up to its rims. usable    texels that hold light; the others get no
-/// neighbours and are nobody's
+/// changes evenly along the surface stays as it is, up to its rims.
+///
+/// usable    texels that hold light; the others get no neighbours and are nobody's
 SmoothingWeights smoothing_weights(const RayScene& rays, const Texels& texels, std::span<const float> nearness,
                                    const std::vector<bool>& usable);
 

@@ -16,7 +16,6 @@
 namespace daylit {
 namespace {
 
-constexpr std::size_t kNumbers = glsl::kVolumeNumbers;
 constexpr float kSide = 16.0f;                      // of the volume, metres
 constexpr std::size_t kHot = 512, kCold = 1 << 18;  // places
 constexpr float kWrong = 0.01f;                     // relative: what halves and bytes lose
@@ -40,9 +39,9 @@ IrradianceVolume make_volume() {
     volume.basis.hours = {12.0}, volume.basis.components = 1, volume.basis.curves = {0, 0, 0, 0, 1};
     std::vector<float> records;
     for (const auto& sample : made.samples) {
-        for (std::size_t i = 0; i < kNumbers; ++i) records.push_back(field(i, octree.place(sample.at)));
+        for (std::size_t i = 0; i < kRecordNumbers; ++i) records.push_back(field(i, octree.place(sample.at)));
         for (glm::length_t axis = 0; axis < 3; ++axis)
-            for (std::size_t i = 0; i < kNumbers; ++i) records.push_back(field_change(i)[axis]);
+            for (std::size_t i = 0; i < kRecordNumbers; ++i) records.push_back(field_change(i)[axis]);
     }
     store_records(records, 0.0f, volume);
     return volume;
@@ -55,7 +54,7 @@ class UniformGrid {
         : count_(std::size_t(std::cbrt(double(bytes) / double(kRow * sizeof(float))))),
           rows_(kRow * count_ * count_ * count_) {
         for (std::size_t at = 0; at < rows_.size() / kRow; ++at)
-            for (std::size_t i = 0; i < kNumbers; ++i)
+            for (std::size_t i = 0; i < kRecordNumbers; ++i)
                 rows_[at * kRow + i] =
                     field(i, kSide / float(count_ - 1) * Vec3(at % count_, at / count_ % count_, at / count_ / count_));
     }
@@ -102,7 +101,7 @@ Asked ask(bool hot) {
 bool right(const Asked& asked, const std::vector<Rgb>& found) {
     for (std::size_t i = 0; i < found.size(); ++i) {
         glsl::VolumeSh sh;
-        for (std::size_t k = 0; k < kNumbers; ++k) sh.c[k / 3][glm::length_t(k % 3)] = field(k, asked.places[i]);
+        for (std::size_t k = 0; k < kRecordNumbers; ++k) sh.c[k / 3][glm::length_t(k % 3)] = field(k, asked.places[i]);
         const Rgb expected = glsl::volume_irradiance(sh, asked.normals[i], 1.0f);
         if (!(glm::length(found[i] - expected) <= kWrong * glm::length(expected))) return false;
     }

@@ -13,7 +13,6 @@
 namespace daylit {
 namespace {
 
-constexpr std::size_t kNumbers = glsl::kVolumeNumbers;
 const Vec3 kWave(2.1f, 2.9f, 1.7f);
 
 /// Radiance SH that waves through space, and its change: coefficients below `bands` squared alone.
@@ -31,7 +30,7 @@ IrradianceVolume volume_on(const Octree& octree, std::size_t coefficients = 9) {
     std::vector<float> records;
     for (const auto& sample : made.samples)
         for (glm::length_t part = 0; part < 4; ++part)
-            for (std::size_t i = 0; i < kNumbers; ++i)
+            for (std::size_t i = 0; i < kRecordNumbers; ++i)
                 records.push_back(field(i, octree.place(sample.at), coefficients)[part]);
     store_records(records, 0.0f, volume);
     return volume;
@@ -61,7 +60,7 @@ double rms(const IrradianceVolume& volume, const VolumeScheme& mode, std::size_t
     for (int i = 0; i < kPlaces; ++i) {
         const Vec3 place = 2.0f * Vec3(random.next(), random.next(), random.next()), normal = random_direction(random);
         glsl::VolumeSh truth{};
-        for (std::size_t n = 0; n < kNumbers; ++n)
+        for (std::size_t n = 0; n < kRecordNumbers; ++n)
             truth.c[n / 3][glm::length_t(n % 3)] = field(n, place, coefficients).x;
         const Rgb off = light.irradiance(place, normal) - glsl::volume_irradiance(truth, normal, 1.0f);
         sum += double(glm::dot(off, off)) / 3.0;

@@ -12,21 +12,21 @@
 namespace daylit {
 namespace {
 
-constexpr std::size_t kNumbers = glsl::kVolumeNumbers, kComponents = 12;
+constexpr std::size_t kComponents = 12;
 
 struct Stored {
     IrradianceVolume volume;
     std::vector<float> records;  // as store_records() takes them
 
     float record(std::size_t s, std::size_t part, std::size_t i, std::size_t r) const {
-        return records[((s * 4 + part) * kNumbers + i) * kComponents + r];
+        return records[((s * 4 + part) * kRecordNumbers + i) * kComponents + r];
     }
     float value(std::size_t s, std::size_t i, std::size_t r) const {
-        return float(volume.values[(r * kNumbers + i) * volume.tree.samples + s]) *
+        return float(volume.values[(r * kRecordNumbers + i) * volume.tree.samples + s]) *
                volume.value_step[i % 3 * volume.tree.samples + s];
     }
     float change(std::size_t s, std::size_t axis, std::size_t i, std::size_t r) const {
-        return float(volume.changes[((r * 3 + axis) * kNumbers + i) * volume.tree.samples + s]) *
+        return float(volume.changes[((r * 3 + axis) * kRecordNumbers + i) * volume.tree.samples + s]) *
                volume.change_step[i % 3 * volume.tree.samples + s];
     }
     /// Error of irradiance over irradiance, both RMS over normals, channels and components.
@@ -60,7 +60,7 @@ Stored stored(float noise) {
     Random random(5, 0, 0);
     for (std::uint32_t s = 0; s < made.volume.tree.samples; ++s)
         for (std::size_t part = 0; part < 4; ++part)
-            for (std::size_t i = 0; i < kNumbers; ++i)
+            for (std::size_t i = 0; i < kRecordNumbers; ++i)
                 for (std::size_t r = 0; r < kComponents; ++r)
                     made.records.push_back(std::pow(10.0f, float(s % 4)) * std::exp2(-float(r)) *
                                            ((part == 0 && i < 3 ? 3.0f : 0.0f) + random.next() - 0.5f));
@@ -88,7 +88,7 @@ TEST(VolumeRecords, ChangesArriveWithinHalfAStep) {
     const Stored made = stored(0.002f);
     for (std::size_t s = 0; s < made.volume.tree.samples; ++s)
         for (std::size_t axis = 0; axis < 3; ++axis)
-            for (std::size_t i = 0; i < kNumbers; ++i)
+            for (std::size_t i = 0; i < kRecordNumbers; ++i)
                 for (std::size_t r = 0; r < kComponents; ++r)
                     ASSERT_NEAR(made.change(s, axis, i, r), made.record(s, axis + 1, i, r),  // cells of a metre
                                 0.501 * double(made.volume.change_step[i % 3 * made.volume.tree.samples + s]));
@@ -97,7 +97,7 @@ TEST(VolumeRecords, ChangesArriveWithinHalfAStep) {
 TEST(VolumeRecords, LightThatOneStepCannotSpanTakesALargerOneAndNoLightTakesNone) {
     Stored made = stored(0.002f);
     std::fill(made.records.begin(), made.records.end(), 0.0f);
-    made.records[4 * kNumbers * kComponents] = 1e30f;  // of record 1
+    made.records[4 * kRecordNumbers * kComponents] = 1e30f;  // of record 1
     store_records(made.records, 1e-9f, made.volume);
     EXPECT_EQ(made.volume.value_step[0], 0.0f);
     EXPECT_NEAR(made.value(1, 0, 0) / 1e30f, 1.0, 1e-6);
