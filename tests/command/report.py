@@ -68,8 +68,8 @@ for key, what in (("bake_seconds", "wall"), ("bake_processor_seconds", "processo
     assert abs(ratio - day[key] / one_bounce[key]) < 1e-9 * ratio
 assert "nrmse" not in one_bounce and abs(day["nrmse"] - hour["nrmse"]) < 0.02
 
-# Ways to look a volume up: all are there; the blend of highest order is nearer to the gather itself than others with
-# as many cells; what cannot differ does not.
+# Ways to look a volume up: all are there; fewer bands are farther from the gather itself; what cannot differ does not.
+# (How blends compare is seen on fields that are known, VolumeBlends: twenty points and some hundred cells do not tell.)
 modes = {}
 for run_ in data["runs"]:
     if run_["method"] == "volume-modes":
@@ -82,8 +82,7 @@ for values in sum(modes.values(), []):
 for i, best in enumerate(modes["Adini-Hermite"]):
     four, two = modes["four bands"][i], modes["two bands"][i]
     assert four["nrmse"] == best["nrmse"] and four["file_bytes"] > best["file_bytes"] > two["file_bytes"]
-    for other in ("Oat", "Annen"):
-        assert best["gather_nrmse"] < modes[other][i]["gather_nrmse"], (other, i)
+    assert best["gather_nrmse"] < two["gather_nrmse"], i
 for mode in ("Adini-Hermite", "trilinear"):
     bytes_of = [values["file_bytes"] for values in modes[mode]]
     assert bytes_of == sorted(bytes_of, reverse=True), "largest first"
