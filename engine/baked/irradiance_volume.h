@@ -17,13 +17,14 @@ inline constexpr std::size_t kRecordNumbers = glsl::kVolumeNumbers;
 struct IrradianceVolume {
     VolumeTree tree;
     LightBasis basis;
-    /// RGB of each sampled record's radiance SH (shaders/shared/sh.h), in the record's steps; cd/m^2 once multiplied by the
-    /// weights: [component][coefficient * 3 + channel][record].
+    /// RGB of each sampled record's radiance SH (shaders/shared/sh.h), in the record's steps; cd/m^2 once multiplied by
+    /// the weights: [component][coefficient * 3 + channel][record].
     std::vector<std::int16_t> values;
     /// Its change along x, y and z over the side of the largest cell that shares the record, in steps of changes:
     /// [component][axis][coefficient * 3 + channel][record].
     std::vector<std::int8_t> changes;
-    /// [channel][record], so that a dark room beside a bright one keeps its light, and a dim channel its colour; not negative.
+    /// [channel][record], so that a dark room beside a bright one keeps its light, and a dim channel its colour; not
+    /// negative.
     std::vector<float> value_step, change_step;
 
     /// Bytes that a renderer keeps: cells, and the records of one moment.

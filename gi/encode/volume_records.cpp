@@ -4,14 +4,14 @@
 #include <cmath>
 
 #include "engine/base/units.h"
+#include "shaders/shared/sh.h"
 
 namespace daylit {
 namespace {
 
 constexpr float kMostValue = 32767.0f, kMostChange = 127.0f;
-// The cosine lobe in bands 0, 1 and 2 (Ramamoorthi and Hanrahan 2001); what one and the same error of every coefficient
-// does to irradiance, RMS over normals: the root of (lobe0^2 + 3 lobe1^2 + 5 lobe2^2) / (4 pi).
-constexpr double kLobe[3] = {kPi, 2.0 * kPi / 3.0, kPi / 4.0};
+// What one and the same error of every coefficient does to irradiance, RMS over normals: the root of the sum of
+// kShCosine^2 over the nine, over 4 pi.
 constexpr float kLobeNorm = 1.442f;
 // Inside a cell the changes of its corners weigh, RMS, 0.30 of what their values do (Hermite's h10 against h00, along
 // one of three axes, three of them): steps larger by that share add as much noise.
@@ -37,8 +37,8 @@ class Record {
     float brightness(std::size_t channel) const {
         double square = 0.0;
         for (std::size_t i = channel; i < kRecordNumbers; i += 3) {
-            const double lobe = kLobe[i < 3 ? 0 : i < 12 ? 1 : 2];
-            for (std::size_t r = 0; r < components_; ++r) square += std::pow(lobe * double(at(0, i, r)), 2);
+            const float lobe = i < 3 ? glsl::kShCosine0 : i < 12 ? glsl::kShCosine1 : glsl::kShCosine2;
+            for (std::size_t r = 0; r < components_; ++r) square += std::pow(double(lobe * at(0, i, r)), 2);
         }
         return float(std::sqrt(square / (4.0 * kPi)));
     }

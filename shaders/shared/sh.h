@@ -26,13 +26,16 @@ SHARED_FN Sh9 sh_basis(vec3 d) {
     return y;
 }
 
+// The clamped cosine in bands 0, 1 and 2: pi, 2 pi / 3, pi / 4 (Ramamoorthi and Hanrahan 2001).
+const float kShCosine0 = 3.14159265f, kShCosine1 = 2.09439510f, kShCosine2 = 0.785398163f;
+
 // What the coefficients of radiance are multiplied by to give irradiance on a plane with this unit normal: the basis
-// times the clamped cosine's bands, pi, 2 pi / 3 and pi / 4 (Ramamoorthi and Hanrahan 2001, eq. 8).
+// times the clamped cosine's bands (eq. 8).
 SHARED_FN Sh9 sh_irradiance_weights(vec3 normal) {
     Sh9 w = sh_basis(normal);
-    w.c[0] *= 3.14159265f;
-    for (int i = 1; i < 4; ++i) w.c[i] *= 2.09439510f;
-    for (int i = 4; i < 9; ++i) w.c[i] *= 0.785398163f;
+    w.c[0] *= kShCosine0;
+    for (int i = 1; i < 4; ++i) w.c[i] *= kShCosine1;
+    for (int i = 4; i < 9; ++i) w.c[i] *= kShCosine2;
     return w;
 }
 
