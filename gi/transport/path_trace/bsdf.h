@@ -1,7 +1,6 @@
 #pragma once
 // How light scatters at a point of a path: the shared BRDF (shaders/shared/brdf.h) and smooth glass.
 #include <cmath>
-#include <optional>
 
 #include "gi/transport/path_trace/sampling.h"
 #include "shaders/shared/brdf.h"
@@ -39,12 +38,12 @@ class Reflection {
     Value evaluate_with_pdf(const Vec3& light) const;
 
     struct Sample {
-        Vec3 direction;
-        Rgb weight;  // f cos / pdf
-        float pdf;
+        Vec3 direction = Vec3(0.0f);
+        Rgb weight = Rgb(0.0f);  // f cos / pdf
+        float pdf = 0.0f;        // 0: nothing, when the surface is black or the draw falls below the surface
     };
-    /// u   uniform in [0,1)^2. Nothing when the surface is black or the draw falls below the surface.
-    std::optional<Sample> sample(Vec2 u) const;
+    /// u   uniform in [0,1)^2
+    Sample sample(Vec2 u) const;
 
   private:
     /// Share of the Phong lobe in what is reflected; < 0: black.
@@ -62,22 +61,26 @@ class Reflection {
 inline Reflection::Value Reflection::evaluate_with_pdf(const Vec3& light) const {
     const float cosine = glm::dot(shading_normal_, light);
     if (lobe_chance_ < 0.0f || cosine <= 0.0f || glm::dot(geometric_normal_, light) <= 0.0f) return {};
-    if (lobe_chance_ == 0.0f) return {brdf_.diffuse * (cosine / kPiF), cosine / kPiF};
-    // As evaluate_brdf() of shaders/shared/brdf.h, but the one power serves the value and the density.
+    const float diffuse_pdf = cosine * kInversePi;
+    if (lobe_chance_ == 0.0f) return {brdf_.diffuse * diffuse_pdf, diffuse_pdf};
+    // As evaluate_brdf() of shaders/shared/brdf.h, but the one power serves the value and the density. Since
+    // ln(c) <= c - 1, it is below e^-40 where it is not asked for.
     const float cos_lobe = glm::dot(mirror_, light);
-    const float lobe = cos_lobe > 0.0f ? std::pow(cos_lobe, brdf_.exponent) / (2.0f * kPiF) : 0.0f;
-    return {(brdf_.diffuse / kPiF + brdf_.specular * ((brdf_.exponent + 2.0f) * lobe)) * cosine,
-            glm::mix(pdf_cosine_hemisphere(cosine), (brdf_.exponent + 1.0f) * lobe, lobe_chance_)};
+    const bool lit = cos_lobe > 0.0f && brdf_.exponent * (1.0f - cos_lobe) < 40.0f;
+    const float lobe = lit ? std::pow(cos_lobe, brdf_.exponent) * (0.5f * kInversePi) : 0.0f;
+    return {brdf_.diffuse * diffuse_pdf + brdf_.specular * ((brdf_.exponent + 2.0f) * lobe * cosine),
+            glm::mix(diffuse_pdf, (brdf_.exponent + 1.0f) * lobe, lobe_chance_)};
 }
 
-inline std::optional<Reflection::Sample> Reflection::sample(Vec2 u) const {
-    if (lobe_chance_ < 0.0f) return std::nullopt;
+inline Reflection::Sample Reflection::sample(Vec2 u) const {
+    if (lobe_chance_ < 0.0f) return {};
     const bool lobe = choose(u.x, lobe_chance_);
-    const Vec3 direction = glm::normalize(lobe ? Frame(mirror_).to_world(sample_phong_lobe(brdf_.exponent, u.x, u.y))
-                                               : Frame(shading_normal_).to_world(sample_cosine_hemisphere(u.x, u.y)));
+    // The shading normal is unit within rounding; the mirrored view carries that of the whole path.
+    const Vec3 direction = lobe ? glm::normalize(Frame(mirror_).to_world(sample_phong_lobe(brdf_.exponent, u.x, u.y)))
+                                : Frame(shading_normal_).to_world(sample_cosine_hemisphere(u.x, u.y));
     const Value value = evaluate_with_pdf(direction);
-    if (value.f_cos == Rgb(0.0f) || !(value.pdf > 0.0f)) return std::nullopt;
-    return Sample{direction, value.f_cos / value.pdf, value.pdf};
+    if (value.f_cos == Rgb(0.0f) || !(value.pdf > 0.0f)) return {};
+    return {direction, value.f_cos / value.pdf, value.pdf};
 }
 
 /// Share of unpolarised light reflected at the smooth boundary of a dielectric (Fresnel).

@@ -19,12 +19,12 @@ Film::Film(int width, int height)
 
 void Film::add(int x, int y, const Group& group) {
     Pixel& pixel = pixels_[std::size_t(y) * std::size_t(width_) + std::size_t(x)];
-    const double l = luminance(group.sum), count = group.count;
+    const double l = luminance(group.sum), one_over_count = 1.0 / group.count;
     pixel.rays += group.rays;
     pixel.sum += group.sum;
-    pixel.squares += group.sum * group.sum / count;
+    pixel.squares += group.sum * group.sum * one_over_count;
     pixel.luminance += l;
-    pixel.luminance_squares += l * l / count;
+    pixel.luminance_squares += l * l * one_over_count;
 }
 
 Image Film::mean(int samples) const {

@@ -23,7 +23,7 @@ float largest(const Rgb& c) {
 inline Rgb weighted_response(const Reflection& reflection, const LightSample& sample) {
     const auto [value, pdf] = reflection.evaluate_with_pdf(sample.direction);
     if (!(sample.pdf > 0.0f)) return value;
-    return value * (power_heuristic(sample.pdf, pdf) / sample.pdf);
+    return value * power_heuristic_over_pdf(sample.pdf, pdf);
 }
 
 }  // namespace
@@ -217,18 +217,18 @@ bool Integrator::scatter(Path& path, Ray& ray, const Vec3& position, const Vec3&
         add_straight_light(path, position, geometric_normal, reflection);
     if (want_indirect_ && !ends) add_area_light(path, position, geometric_normal, reflection);
 
-    const std::optional<Reflection::Sample> next =
+    const Reflection::Sample next =
         reflection.sample(first ? path.random.pair(Net::Bounce) : path.random.pair());
-    if (!next) return false;
+    if (next.pdf == 0.0f) return false;
     // The next ray of direct light, or of a path that ends here, can only bring the sun.
     const bool only_sun = !want_indirect_ || ends;
-    if (only_sun && !sun_in(next->direction)) return false;
-    path.throughput *= next->weight;
-    path.pdf = next->pdf;
+    if (only_sun && !sun_in(next.direction)) return false;
+    path.throughput *= next.weight;
+    path.pdf = next.pdf;
     path.specular = false;
     ++path.segments;
-    ray.origin = RayScene::offset_origin(position, geometric_normal, next->direction);
-    ray.direction = next->direction;
+    ray.origin = RayScene::offset_origin(position, geometric_normal, next.direction);
+    ray.direction = next.direction;
     if (!only_sun) {
         plan_sky(path);
         return true;

@@ -35,14 +35,13 @@ class PathRandom {
         const std::uint32_t i = reversed(scrambled(reversed(index_), order)) & mask_;
         // The first dimension is i mirrored at the binary point: scrambled, i need not be mirrored before and after.
         return {unit(reversed(scrambled(i, std::uint32_t(seeds)))),
-                unit(reversed(scrambled(reversed(sobol_second(i)), std::uint32_t(seeds >> 32))))};
+                unit(reversed(scrambled(mirrored_sobol_second(i), std::uint32_t(seeds >> 32))))};
     }
 
   private:
     static float unit(std::uint32_t bits) { return float(bits >> 8) * 0x1p-24f; }
     static std::uint32_t reversed(std::uint32_t x) {
-        x = (x << 16) | (x >> 16);
-        x = ((x & 0x00FF00FFu) << 8) | ((x & 0xFF00FF00u) >> 8);
+        x = __builtin_bswap32(x);
         x = ((x & 0x0F0F0F0Fu) << 4) | ((x & 0xF0F0F0F0u) >> 4);
         x = ((x & 0x33333333u) << 2) | ((x & 0xCCCCCCCCu) >> 2);
         return ((x & 0x55555555u) << 1) | ((x & 0xAAAAAAAAu) >> 1);
@@ -55,11 +54,14 @@ class PathRandom {
         x ^= x * 0xC7AFE638u;
         return x ^ x * 0x8D22F6E6u;
     }
-    static std::uint32_t sobol_second(std::uint32_t i) {
-        std::uint32_t x = 0;
-        for (std::uint32_t v = 1u << 31; i != 0; i >>= 1, v ^= v >> 1)
-            if (i & 1u) x ^= v;
-        return x;
+    /// Digits of the second dimension, mirrored at the binary point: those of i times Pascal's triangle modulo 2, which
+    /// is a product of one sparse matrix a digit of the digit's own number.
+    static std::uint32_t mirrored_sobol_second(std::uint32_t i) {
+        i ^= i >> 16;
+        i ^= (i & 0xFF00FF00u) >> 8;
+        i ^= (i & 0xF0F0F0F0u) >> 4;
+        i ^= (i & 0xCCCCCCCCu) >> 2;
+        return i ^ (i & 0xAAAAAAAAu) >> 1;
     }
 
     Random random_;

@@ -10,7 +10,7 @@
 
 namespace daylit {
 
-inline constexpr float kPiF = float(kPi);
+inline constexpr float kPiF = float(kPi), kInversePi = float(1.0 / kPi);
 
 /// Right-handed orthonormal frame about a unit normal (Duff et al. 2017, listing 3).
 struct Frame {
@@ -69,7 +69,7 @@ inline Vec3 sample_cosine_hemisphere(float u, float v) {
     return direction_around_z(std::sqrt(1.0f - u), std::sqrt(u), v);
 }
 inline float pdf_cosine_hemisphere(float cos_theta) {
-    return std::max(cos_theta, 0.0f) / kPiF;
+    return std::max(cos_theta, 0.0f) * kInversePi;
 }
 
 /// Around z with density (n + 1) / (2 pi) cos^n (Lafortune and Willems 1994); z is the mirror direction.
@@ -110,6 +110,11 @@ inline float power_heuristic(float chosen, float other) {
     if (std::isinf(chosen)) return 1.0f;
     const float ratio = other / chosen;
     return 1.0f / (1.0f + ratio * ratio);
+}
+/// The same over `chosen`, in one division where the squares are numbers.
+inline float power_heuristic_over_pdf(float chosen, float other) {
+    if (chosen > 1e-18f && chosen < 1e18f) return chosen / (chosen * chosen + other * other);
+    return power_heuristic(chosen, other) / chosen;
 }
 
 }  // namespace daylit
