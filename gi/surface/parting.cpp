@@ -112,20 +112,30 @@ class Parter {
     Vec3 middle_ = Vec3(0.0f), normal_ = Vec3(0.0f);
 };
 
-/// A texel, its point that is nearest to a place, and how far that is.
+/// A texel, its point that is nearest to a place, the triangle that it lies on, and how far that is.
 struct Candidate {
-    std::uint32_t texel;
+    std::uint32_t texel, triangle;
     Vec3 nearest;
     float away;
 };
 
 Candidate candidate(const WorldMesh& mesh, const Texels& texels, std::uint32_t texel, const Vec3& place) {
-    Candidate best{texel, Vec3(0.0f), 1e30f};
+    Candidate best{texel, texels.points_of(texel).front().triangle, Vec3(0.0f), 1e30f};
     for (const TexelPoint& p : texels.points_of(texel)) {
         const Vec3 at = position(mesh, p);
-        if (const float away = glm::distance(at, place); away < best.away) best.away = away, best.nearest = at;
+        const float away = glm::distance(at, place);
+        if (away < best.away) best = {texel, p.triangle, at, away};
     }
     return best;
+}
+
+/// By a texel's middle, in the plane of its nearest point: on what is curved the middle itself lies inside.
+bool covered(const RayScene& rays, const Covers& covers, const Texels& texels, std::uint32_t texel) {
+    const Candidate near = candidate(rays.mesh(), texels, texel, texels.position[texel]);
+    if (!covers.may_hide(near.triangle)) return false;
+    const Vec3 normal = geometric_normal(rays.mesh(), near.triangle);
+    const Vec3 middle = texels.position[texel] + glm::dot(near.nearest - texels.position[texel], normal) * normal;
+    return covers.over(middle, normal, texels.width[texel]);
 }
 
 void mark_parts(Texels& texels, std::uint32_t first) {
@@ -155,10 +165,8 @@ Texels make_parted_texels(const RayScene& rays, const Atlas& atlas) {
     });
     texels.walled.assign(texels.count(), 0);
     texels.covered.resize(texels.count());
-    tbb::parallel_for(std::uint32_t(0), std::uint32_t(texels.count()), [&](std::uint32_t t) {
-        texels.covered[t] = covers.may_hide(texels.points_of(t).front().triangle) &&
-                            covers.over(texels.position[t], texels.normal[t], texels.width[t]);
-    });
+    tbb::parallel_for(std::uint32_t(0), std::uint32_t(texels.count()),
+                      [&](std::uint32_t t) { texels.covered[t] = covered(rays, covers, texels, t); });
     tbb::parallel_for(std::size_t(0), atlas.charts.size(),
                       [&](std::size_t chart) { mark(rays, atlas, chart, texels); });
     return texels;

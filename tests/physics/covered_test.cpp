@@ -173,5 +173,25 @@ TEST(Covered, NothingUnderATableIs) {
     for (const std::uint32_t t : floor.which) EXPECT_EQ(floor.texels.covered[t], 0) << t;
 }
 
+TEST(Covered, ARoundThingDoesNotCoverItself) {
+    TestScene made = table();
+    const int white = made.add(lambert(Rgb(0.7f)));
+    constexpr int kSides = 12;  // a drum over the table, some of its texels as wide as a sixth of it
+    const auto rim = [](int k, float height) {
+        const double angle = 2.0 * kPi * k / kSides;
+        return Vec3(2.0f + 0.1f * float(std::cos(angle)), height, 2.0f - 0.1f * float(std::sin(angle)));
+    };
+    for (int k = 0; k < kSides; ++k) made.quad(white, rim(k, 1.5f), rim(k + 1, 1.5f) - rim(k, 1.5f), Vec3(0, 0.25f, 0));
+    const Atlas atlas = make_atlas(made.mesh, 850);
+    const Texels texels = make_parted_texels(made.trace(), atlas);
+    int curved = 0;
+    for (std::uint32_t t = 0; t < texels.count(); ++t) {
+        if (texels.position[t].y < 1.4f) continue;
+        curved += glm::distance(texels.position[t], Vec3(2, texels.position[t].y, 2)) < 0.096f;
+        EXPECT_EQ(texels.covered[t], 0) << t;
+    }
+    EXPECT_GT(curved, 3);
+}
+
 }  // namespace
 }  // namespace daylit

@@ -217,8 +217,7 @@ bool Integrator::scatter(Path& path, Ray& ray, const Vec3& position, const Vec3&
         add_straight_light(path, position, geometric_normal, reflection);
     if (want_indirect_ && !ends) add_area_light(path, position, geometric_normal, reflection);
 
-    const Reflection::Sample next =
-        reflection.sample(first ? path.random.pair(Net::Bounce) : path.random.pair());
+    const Reflection::Sample next = reflection.sample(first ? path.random.pair(Net::Bounce) : path.random.pair());
     if (next.pdf == 0.0f) return false;
     // The next ray of direct light, or of a path that ends here, can only bring the sun.
     const bool only_sun = !want_indirect_ || ends;
