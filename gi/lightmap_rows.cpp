@@ -103,15 +103,14 @@ void show_bare_neighbours(const SolvedDay& solved, const std::vector<bool>& bare
 }
 
 /// Of the parts of a cell that are shown, the darkest when the brightest is so much brighter that a mean would be light
-/// through a wall: then the bright side is dark along the wall's foot. Not what is black and out of reach, as below the
-/// ground.
+/// through a wall: then the bright side is dark along the wall's foot. Not what is out of reach, as below the ground or
+/// inside of masonry, where light comes but by seams.
 std::optional<std::uint32_t> part_to_keep_dark(const SolvedDay& solved, const std::vector<std::uint32_t>& parts,
                                                const Brightness& brightness) {
     const auto darker = [&](std::uint32_t a, std::uint32_t b) { return brightness(a) < brightness(b); };
     const auto [darkest, brightest] = std::minmax_element(parts.begin(), parts.end(), darker);
-    const double light = brightness(*darkest);
-    if (light >= kLeak * brightness(*brightest)) return std::nullopt;
-    if (light == 0.0 && !solved.reachable.space.reachable(solved.texels.above(*darkest))) return std::nullopt;
+    if (brightness(*darkest) >= kLeak * brightness(*brightest)) return std::nullopt;
+    if (!solved.reachable.space.reachable(solved.texels.above(*darkest))) return std::nullopt;
     return *darkest;
 }
 
