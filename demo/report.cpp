@@ -365,7 +365,7 @@ void add_report(CLI::App& app) {
         ->group(group);
     command
         ->add_option("--methods", options->methods,
-                     "all, or a list of lightmap, volume, encodings, whole-day, volume-modes")
+                     "all, or a list of lightmap, volume, encodings, whole-day, seen-frames, volume-modes")
         ->group(group)
         ->capture_default_str();
     command->add_option("--points", options->points, "places to judge at")->group(group)->capture_default_str();

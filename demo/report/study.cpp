@@ -1,6 +1,7 @@
 #include "demo/report/study.h"
 
 #include "demo/report/lightmap_encodings.h"
+#include "demo/report/seen_frames.h"
 #include "demo/report/volume_modes.h"
 #include "demo/report/whole_day.h"
 
@@ -15,6 +16,9 @@ constexpr const char* kEncodings =
 constexpr const char* kWholeDay =
     "What a whole day costs beside one hour: lightmaps with the same rays per texel, which are traced once for all "
     "hours.";
+constexpr const char* kSeenFrames =
+    "Whether a viewer can tell compressed lightmaps from uncompressed ones: the same frames drawn with both, as "
+    "displayed at the uncompressed frame's automatic exposure, by Yee's metric at 67 pixels per degree.";
 constexpr const char* kVolumeModes =
     "How an irradiance volume is kept and looked up: cells of one size or an octree; corners blended trilinearly, by "
     "Oat's extrapolation, by Annen's distances to the power -4, with half gradients or by Adini-Hermite, as the "
@@ -48,6 +52,7 @@ std::vector<ReportStudy> report_studies(const BakeSettings& base, const BakeSett
     };
     return {{"encodings", kEncodings, false, with(compare_lightmap_encodings, day)},
             {"whole-day", kWholeDay, false, with(compare_whole_day, day)},
+            {"seen-frames", kSeenFrames, false, with(compare_seen_frames, day)},
             {"volume-modes", kVolumeModes, true, with(compare_volume_modes, base)}};
 }
 

@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 """The figures of RESULTS.md, measured: prints Markdown tables.
 
-  figures.py DAYLIT WORK [direct] [contexts] [cold] [renders] [lightmap] [views] [moved] [--shared FOLDER] [--hours 9,12]
+  figures.py DAYLIT WORK [direct] [contexts] [cold] [renders] [lightmap] [views] [seen] [moved] [--shared FOLDER] [--hours 9,12]
 
 direct    shot --show direct against reference --show direct: demo level and two shared scenes, 3 cameras, 3 hours
 contexts  largest difference between EGL, OSMesa and GLFW on every camera of the demo level at 3 hours (needs a display)
 cold      whole-process time of one shot of the demo level
 renders   reference against the independent renders of the shared folder
 lightmap  baked irradiance at random surface points against the reference
-views     shot against reference, final and indirect, every named camera (medium.daylit in WORK, baked when missing)
+views     shot against reference, final and indirect, every named camera (medium.daylit in WORK, baked when missing);
+          nrmse of indirect light also without the references' own noise
+seen      frames drawn with the compressed lightmap that can be told from the uncompressed one's, every camera
 moved     the cart with the teapot moved to ten spots: final light against the reference on its pixels (the same bake)
 """
 import json
@@ -26,7 +28,7 @@ if "--shared" in arguments:
 hours = (7, 12, 18)
 if "--hours" in arguments:
     at = arguments.index("--hours")
-    hours = tuple(int(hour) for hour in arguments[at + 1].split(","))
+    hours = tuple(float(hour) if '.' in hour else int(hour) for hour in arguments[at + 1].split(","))
     del arguments[at:at + 2]
 if len(arguments) < 2:
     sys.exit(__doc__)
@@ -116,20 +118,49 @@ def medium():
     return MEDIUM
 
 
+def without_noise(ours, references, mean):
+    """nrmse without the references' noise: that of two seeds is independent, so that the mean of the products of both
+    differences is the square of our error alone, E[(o-a)(o-b)] = (|o-a|^2 + |o-b|^2 - |a-b|^2) / 2. Below zero by
+    chance where the error is small against the noise."""
+    apart = [compare(ours, reference)["mse"] for reference in references]
+    square = (sum(apart) - compare(*references)["mse"]) / 2
+    return (1 if square >= 0 else -1) * abs(square) ** 0.5 / mean
+
+
 def views():
-    print("| camera | hour | final: flip_mean | bias | s.e. | indirect: nrmse | bias | s.e. |\n|---|---|---|---|---|---|---|---|")
+    print("| camera | hour | final: flip_mean | bias | s.e. | indirect: nrmse | without noise | bias | s.e. |\n"
+          "|---|---|---|---|---|---|---|---|---|")
     for camera in cameras():
         for hour in hours:
             row = {}
             for show in ("final", "indirect"):
-                ours, reference = work / f"{camera}-{hour}-{show}.exr", work / f"{camera}-{hour}-{show}.reference.exr"
+                ours = work / f"{camera}-{hour}-{show}.exr"
+                references = [work / f"{camera}-{hour}-{show}.reference{seed}.exr" for seed in (1, 2)]
                 view = ["--camera", camera, "--hour", hour, "--size", "160x90", "--show", show]
                 run("shot", level(), "-o", ours, "--light", medium(), *view)
-                told = json.loads(run("reference", level(), "-o", reference, *view, "--spp", 512, "--json"))
-                row[show] = compare(ours, reference) | {"error": told["relative_error"]}
+                for seed, reference in enumerate(references[:1 if show == "final" else 2], 1):
+                    told = json.loads(run("reference", level(), "-o", reference, *view, "--spp", 512, "--seed", seed,
+                                          "--json"))
+                row[show] = compare(ours, references[0]) | {"error": told["relative_error"]}
             final, indirect = row["final"], row["indirect"]
+            real = without_noise(ours, references, indirect["rmse"] / indirect["nrmse"])
             print(f"| {camera} | {hour} | {final['flip_mean']:.3f} | {final['bias']:+.3f} | {final['error']:.3f} "
-                  f"| {indirect['nrmse']:.3f} | {indirect['bias']:+.3f} | {indirect['error']:.3f} |", flush=True)
+                  f"| {indirect['nrmse']:.3f} | {real:.3f} | {indirect['bias']:+.3f} | {indirect['error']:.3f} |",
+                  flush=True)
+
+
+def seen():
+    """In one picture a camera and hour; those of every 5 minutes are a matter of --hours."""
+    folder = work / "seen"
+    run("report", level(), "-o", folder, "--methods", "seen-frames", "--points", 1, "--spp", 4, "--picture-spp", 2,
+        "--size", "320x180", "--quality", "medium", "--picture-hours", ",".join(map(str, hours)))
+    report = json.loads((folder / "report.json").read_text())
+    print("| camera | hour | pixels | flip_mean |\n|---|---|---|---|")
+    for picture in report["runs"][0]["pictures"]:
+        values = picture["values"]
+        print(f"| {picture['view']} | {picture['hour']:g} | {values['yee_share'] * 320 * 180:.0f} "
+              f"| {values['flip_mean']:.4f} |")
+    print(report["findings"]["seen-frames"])
 
 
 # Where the cart's wheels stand: hall, by its windows, doorway, courtyard in sun and shade, arcade, treasury.
@@ -218,4 +249,4 @@ def lightmap():
 for figure in wanted:
     print(f"\n### {figure}\n")
     {"direct": direct, "contexts": contexts, "cold": cold, "renders": renders, "lightmap": lightmap,
-     "views": views, "moved": moved}[figure]()
+     "views": views, "seen": seen, "moved": moved}[figure]()
