@@ -72,20 +72,27 @@ DayLightmap frame_lightmap(DayLightmap map, const LightRows& rows, const TiltRow
     map.tilts.assign(map.tile_tilted.empty() ? 0 : 2 * map.values.size(), 0);
     map.exponents.assign(map.texels(), 0);
 
-    float brightest = 1e-6f;
-    for (const std::uint32_t row : row_of_pixel)
-        if (row != ~0u) brightest = std::max(brightest, largest(moment.of(row)));
-    const float step = brightest / float(DayLightmap::kLargestValue);
-    map.scales.assign(kChannels * map.tiles(), step);
+    const auto tile_of = [&](std::size_t pixel) {
+        const auto width = std::size_t(map.width);
+        return map.tile_at(int(pixel % width), int(pixel / width));
+    };
+    std::vector<float> brightest(map.tiles(), 1e-6f);
+    for (std::size_t pixel = 0; pixel < row_of_pixel.size(); ++pixel)
+        if (row_of_pixel[pixel] != ~0u)
+            brightest[tile_of(pixel)] = std::max(brightest[tile_of(pixel)], largest(moment.of(row_of_pixel[pixel])));
+    map.scales.clear();
+    for (const float light : brightest)
+        map.scales.insert(map.scales.end(), kChannels, light / float(DayLightmap::kLargestValue));
     for (std::size_t pixel = 0; pixel < row_of_pixel.size(); ++pixel) {
         if (row_of_pixel[pixel] == ~0u) continue;
         const TexelLight light = moment.of(row_of_pixel[pixel]);
-        const float own = std::max(largest(light), 1e-12f);
-        const int exponent = std::clamp(int(std::log2(brightest / own) / 2.0f), 0, DayLightmap::kLargestExponent);
+        const float own = std::max(largest(light), 1e-12f), most = brightest[tile_of(pixel)];
+        const int exponent = std::clamp(int(std::log2(most / own) / 2.0f), 0, DayLightmap::kLargestExponent);
         map.exponents[pixel] = std::uint8_t(exponent);
         for (std::size_t p = 0; p < kChannels; ++p) {
             const auto stored = [&](std::size_t part) {
-                return std::int16_t(std::lround(std::ldexp(light[part][int(p)], 2 * exponent) / step));
+                return std::int16_t(std::lround(std::ldexp(light[part][int(p)], 2 * exponent) *
+                                                float(DayLightmap::kLargestValue) / most));
             };
             map.values[p * map.texels() + pixel] = stored(0);
             for (std::size_t axis = 0; axis < 2 && !map.tilts.empty(); ++axis)

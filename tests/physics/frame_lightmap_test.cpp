@@ -19,7 +19,8 @@ TEST(FrameLightmap, HoldsTheMomentsLightAndTiltsAtAnyHour) {
     for (std::uint32_t row = 0; row < kSide * kSide; ++row) {
         row_of_pixel.push_back(row % 7 == 0 ? ~0u : row);
         tilt_of_row.push_back(row % 2 ? std::uint32_t(tilts.size() / (2 * kComponents)) : ~0u);
-        const float bright = std::exp2(any(0.0f, 12.0f));  // a room and the open air
+        const bool cellar = row % kSide >= DayLightmap::kTileSide;
+        const float bright = (cellar ? 1e-6f : 1.0f) * std::exp2(any(0.0f, 12.0f));  // rooms and the open air
         for (int r = 0; r < kComponents; ++r) light.push_back(bright * any_colour(0.5f, 1.0f));
         for (int r = 0; r < 2 * kComponents && row % 2; ++r) tilts.push_back(bright * any_colour(-0.2f, 0.2f));
     }
