@@ -148,13 +148,13 @@ VolumeSample sample(const ProbeGather& gather, const Turn& turn, const VolumeJud
     const ProbeLight light = gather.at(place, key, {.rays = settings.rays, .seed = settings.seed});
     VolumeSample result;
     const std::array<std::vector<float>, 2> half = {turn(light.half[0]), turn(light.half[1])};
-    std::vector<float> apart(half[0].size());
-    result.light.resize(half[0].size());
+    std::vector<float> mean(half[0].size()), apart(half[0].size());
     for (std::size_t i = 0; i < apart.size(); ++i) {
-        result.light[i] = 0.5f * (half[0][i] + half[1][i]);
+        mean[i] = 0.5f * (half[0][i] + half[1][i]);
         apart[i] = 0.5f * (half[0][i] - half[1][i]);
     }
-    result.judged = judge(result.light.data(), 4);
+    result.light = SampleLight(mean, 4);
+    result.judged = judge(mean.data(), 4);
     const std::vector<float> noise = judge(apart.data(), 4);
     const std::size_t functionals = judge.functionals();
     // One difference tells little about one functional; all together tell how noisy this place is.

@@ -28,7 +28,7 @@ double bytes_per_volume_cell(std::size_t components, std::size_t functionals) {
     constexpr double kParts = 4.0;
     const double light = kParts * glsl::kVolumeNumbers * double(components);
     const double judged = (kParts + 1.0) * double(functionals);  // with their noise
-    return kSamplesPerCell * sizeof(float) * (light + judged);
+    return kSamplesPerCell * (sizeof(std::int16_t) * light + sizeof(float) * judged);
 }
 
 double cells_at_level(const std::array<int, 3>& roots, int level) {

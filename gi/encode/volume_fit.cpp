@@ -12,7 +12,7 @@ namespace daylit {
 namespace {
 
 constexpr double kHeld = 1e-9;          // weight of the start, against all that is said of an unknown
-constexpr std::size_t kColumns = 64;    // solved together
+constexpr std::size_t kColumns = SampleLight::kRun;  // solved together
 constexpr float kMostOfChange = 0.25f;  // weight of a change that rays told, against a value: silhouettes are not in it
 constexpr double kSteepest = 1.0;       // most of a change over the cell's side, against the light itself
 constexpr double kDarkest = 1e-5;       // of the mean brightness: the darkest that errors are relative to
@@ -46,8 +46,9 @@ void tidy(Row& row) {
 struct Equation {
     Row row;
     float weight = 1.0f;
-    const float* value = nullptr;  // numbers; null: zero
-    float scale = 1.0f;            // of the values
+    const SampleLight* light = nullptr;  // of which a part is what the row is to come to; null: zero
+    std::size_t part = 0;
+    float scale = 1.0f;  // of that part
 };
 
 class Fitter {
@@ -174,12 +175,11 @@ class Fitter {
             measured_.push_back(found);
             if (!found) continue;
             const float importance_here = importance(*found);
-            equations_.push_back({{{4 * s, 1.0f}}, importance_here, found->light.data(), 1.0f});
+            equations_.push_back({{{4 * s, 1.0f}}, importance_here, &found->light});
             const float weight = weight_of_change(*found, side_[s]);
             const float scale = believed(*found, side_[s]) * side_[s];
             for (std::uint32_t a = 1; a < 4; ++a)
-                equations_.push_back(
-                    {{{4 * s + a, 1.0f}}, importance_here * weight, found->light.data() + a * numbers_, scale});
+                equations_.push_back({{{4 * s + a, 1.0f}}, importance_here * weight, &found->light, a, scale});
         }
     }
 
@@ -189,7 +189,7 @@ class Fitter {
                 if (p % 3 != 1 && p / 3 % 3 != 1 && p / 9 != 1) continue;  // a corner, stated already
                 const VolumeSample* measured = sample(cells_.cells[c], p);
                 if (!measured) continue;
-                Equation equation{{}, importance(*measured), measured->light.data(), 1.0f};
+                Equation equation{{}, importance(*measured), &measured->light};
                 const glsl::VolumeCell& cell = cells_.tree.cells[c];
                 blend(cell, weights_of(t_of(p), cell.box.w, 0), equation.row);
                 tidy(equation.row);
@@ -208,7 +208,7 @@ class Fitter {
                 const float of_change = of_value * weight_of_change(measured, cell.box.w);
                 const float scale = believed(measured, cell.box.w) * cell.box.w;
                 for (std::size_t part = 0; part < 4; ++part) {
-                    Equation equation{{}, of_value, measured.light.data() + part * numbers_, 1.0f};
+                    Equation equation{{}, of_value, &measured.light, part};
                     blend(cell, weights_of(at.t, cell.box.w, part), equation.row);
                     tidy(equation.row);
                     if (part > 0) {  // over the cell's side, as at corners
@@ -229,9 +229,8 @@ class Fitter {
             const VolumeSample* guess = before ? before : nearest_sample(cells_.samples[s]);
             guess_.emplace_back(s, guess);
             const float weak = kWeakly * (guess ? importance(*guess) : 1.0f);
-            equations_.push_back({{{4 * s, 1.0f}}, weak, guess ? guess->light.data() : nullptr, 1.0f});
-            for (std::uint32_t a = 1; a < 4; ++a)
-                equations_.push_back({{{4 * s + a, 1.0f}}, kEven * weak, nullptr, 1.0f});
+            equations_.push_back({{{4 * s, 1.0f}}, weak, guess ? &guess->light : nullptr});
+            for (std::uint32_t a = 1; a < 4; ++a) equations_.push_back({{{4 * s + a, 1.0f}}, kEven * weak});
         }
     }
 
@@ -288,8 +287,8 @@ class Fitter {
         start(first, columns, x);
         Eigen::RowVectorXd line(columns);
         for (const Equation& e : equations_) {
-            for (std::size_t i = 0; i < columns; ++i)
-                line[Eigen::Index(i)] = e.value ? double(e.scale) * double(e.value[first + i]) : 0.0;
+            line.setZero();
+            if (e.light) e.light->read(e.part, first, {line.data(), columns}), line *= double(e.scale);
             for (const Entry& entry : e.row) line -= double(entry.weight) * x.row(entry.unknown);
             for (const Entry& entry : e.row) left.row(entry.unknown) += double(e.weight) * double(entry.weight) * line;
         }
@@ -326,14 +325,14 @@ class Fitter {
             // A change that is all noise, as beside a wall, is no place to start at.
             const float certain = believed(*measured_[s], side_[s]) * side_[s] *
                                   weight_of_change(*measured_[s], side_[s]) / kMostOfChange;
-            for (std::size_t part = 0; part < 4; ++part)
-                for (std::size_t i = 0; i < columns; ++i)
-                    x(Eigen::Index(4 * s + part), Eigen::Index(i)) =
-                        double((part == 0 ? 1.0f : certain) * measured_[s]->light[part * numbers_ + first + i]);
+            for (std::size_t part = 0; part < 4; ++part) {
+                const auto row = Eigen::Index(4 * s + part);
+                measured_[s]->light.read(part, first, {x.row(row).data(), columns});
+                if (part > 0) x.row(row) *= double(certain);
+            }
         }
         for (const auto& [s, nearest] : guess_)
-            for (std::size_t i = 0; nearest && i < columns; ++i)
-                x(Eigen::Index(4 * s), Eigen::Index(i)) = double(nearest->light[first + i]);
+            if (nearest) nearest->light.read(0, first, {x.row(Eigen::Index(4 * s)).data(), columns});
     }
 
     const OctreeCells& cells_;

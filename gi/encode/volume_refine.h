@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "engine/base/progress.h"
+#include "gi/encode/sample_light.h"
 #include "gi/encode/volume_octree.h"
 #include "gi/encode/volume_settings.h"
 #include "gi/parallel.h"
@@ -17,7 +18,7 @@ inline constexpr std::size_t kJudgedSides = 6;
 
 /// A sample of light at a place. Several numbers of one kind follow one another, so that they are blended alike.
 struct VolumeSample {
-    std::vector<float> light;   // [part 4][numbers]: what is encoded; parts are the value and its change along x, y, z
+    SampleLight light;          // [part 4][numbers]: what is encoded; parts are the value and its change along x, y, z
     std::vector<float> judged;  // [part 4][functionals]: irradiance over exposure, [kJudgedSides][hour]
     std::vector<float> noise;   // [functionals]: standard error of the values
     float change_noise = 0.0f;  // standard error of the change per metre, over that of the value; metres^-1

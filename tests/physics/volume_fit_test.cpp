@@ -13,7 +13,8 @@ constexpr float kSide = 4.0f;
 /// Two numbers, red and green; all sides see the red.
 VolumeSample sample_of(const Vec2& value, const Vec2& change_along_z, float nearness) {
     VolumeSample sample;
-    sample.light = {value.r, value.g, 0.0f, 0.0f, 0.0f, 0.0f, change_along_z.r, change_along_z.g};
+    const std::array<float, 8> light = {value.r, value.g, 0.0f, 0.0f, 0.0f, 0.0f, change_along_z.r, change_along_z.g};
+    sample.light = SampleLight(light, 4);
     sample.judged.assign(4 * kJudgedSides, 0.0f);
     for (std::size_t side = 0; side < kJudgedSides; ++side) {
         sample.judged[side] = value.r;

@@ -23,7 +23,7 @@ SampleVolume sampled(const Field& field, const Field& nearness) {
         sample.nearness = nearness(place);
         sample.judged.assign(4 * kJudgedSides, 0.0f);
         std::fill_n(sample.judged.begin(), kJudgedSides, field(place));
-        sample.light = sample.judged;
+        sample.light = SampleLight(sample.judged, 4);
         sample.noise.assign(kJudgedSides, 0.0f);
         return sample;
     };
