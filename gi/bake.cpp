@@ -100,6 +100,7 @@ Baked bake(const Scene& scene, const BakeSettings& settings, const Progress& pro
     if (!input.lit()) return baked;
     SolvedDay solved(input, progress);
     if (input.plan.lightmap) bake_lightmap(solved, progress, baked);
+    solved.keep_for_probes();
     if (input.plan.volume) bake_volume(solved, progress, baked);
     return baked;
 }

@@ -75,4 +75,9 @@ LeavingLight SolvedDay::leaving() const {
             day.basis.component_of(StillPart::Evening)};
 }
 
+void SolvedDay::keep_for_probes() {
+    hits.hit = {}, hits.emission = {}, hits.emission_tilts = {};
+    day.texels = {};
+}
+
 }  // namespace daylit

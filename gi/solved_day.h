@@ -47,6 +47,8 @@ struct SolvedDay {
     std::vector<Moment> moments;  // at which encodings of it are judged
 
     LeavingLight leaving() const;
+    /// Frees what probes do not look at: what the rays of texels met, and the light of texels.
+    void keep_for_probes();
 };
 
 }  // namespace daylit
