@@ -214,9 +214,7 @@ double measure(const OctreeCells& cells, const RefinedVolume& refined, const Irr
             const RefinedLeaf& leaf = refined.leaves.at(cells.cells[c].leaf);
             for (int p = 0; p < kLeafPlaces; ++p) {
                 const int s = refined.places.places[leaf.place[std::size_t(p)]].sample;
-                if (leaf.side[std::size_t(p)] != cells.cells[c].side || s < 0 ||
-                    (p % 3 != 1 && p / 3 % 3 != 1 && p / 9 != 1))
-                    continue;
+                if (leaf.side[std::size_t(p)] != cells.cells[c].side || s < 0 || is_corner(p)) continue;
                 const glsl::VolumeSh sh = glsl::volume_sh(arrays, {c, 0.5f * Vec3(p % 3, p / 3 % 3, p / 9)});
                 for (std::size_t side = 0; side < kSides.size(); ++side) {
                     const double found =

@@ -186,7 +186,7 @@ class Fitter {
     void state_insides() {
         for (std::uint32_t c = 0; c < cells_.cells.size(); ++c)
             for (int p = 0; p < kLeafPlaces; ++p) {
-                if (p % 3 != 1 && p / 3 % 3 != 1 && p / 9 != 1) continue;  // a corner, stated already
+                if (is_corner(p)) continue;  // stated already
                 const VolumeSample* measured = sample(cells_.cells[c], p);
                 if (!measured) continue;
                 Equation equation{{}, importance(*measured), &measured->light};

@@ -6,24 +6,17 @@
 #include <unordered_map>
 
 #include "engine/base/random.h"
+#include "gi/encode/leaf_error.h"
 
 namespace daylit {
 namespace {
 
-constexpr float kOutlier = 4.0f;     // errors above this many times the target count no more: a wall inside of the cell
 constexpr std::size_t kBatch = 256;  // leaves split before errors are compared again
 constexpr float kRootsAlong = 8.0f;  // the longest side
 constexpr float kSmallest = 0.25f;   // metres, of cells of the level that ends refinement unless one is given
 constexpr int kFinest = 4, kCoarsest = 12;
-constexpr float kBeforeWall =
-    0.05f;                       // sides between a wall and the sample that is taken in place of a corner behind it
-constexpr double kUnseen = 1.0;  // error of a cell in which nothing could be measured, over the light; the most that
-                                 // any place counts with, lest a lamp's surroundings at night take all cells
-constexpr double kMoving = 63.0;  // what errors count where things move, on top of what they count everywhere
-// What errors count where surfaces stand around within the size of a room, on top: what is indoors is seen from near.
-constexpr double kEnclosed = 5.0;
-constexpr float kRoom = 5.0f;
-constexpr float kFloor = 0.1f;    // of the volume's mean light that errors are compared with, beside the light there
+// Sides between a wall and the sample that is taken in place of a corner behind it.
+constexpr float kBeforeWall = 0.05f;
 
 struct LatticeHash {
     std::size_t operator()(const Lattice& p) const {
@@ -31,30 +24,24 @@ struct LatticeHash {
     }
 };
 
-bool is_corner(int place) {
-    return place % 3 != 1 && place / 3 % 3 != 1 && place / 9 != 1;
-}
-
-/// Centre of the cell or of a face: what is measured beside the corners.
-bool is_test(int place) {
-    return (place % 3 == 1) + (place / 3 % 3 == 1) + (place / 9 == 1) >= 2;
-}
-
 /// A leaf as it was tested.
 struct Tested {
     RefinedLeaf leaf;
-    int groups = 0;       // of places that see each other
-    bool parted = false;  // by a plane between exactly two groups
     std::optional<Vec4> plane;
-    double error = 0.0;   // worst, over the target; 1 and less: well enough
-    double square = 0.0;  // mean square error, over the light, times the free space of the cell and what it counts
+    bool mixed = false;
+    LeafError error;
 };
 
 class Refiner {
   public:
     Refiner(const RayScene& rays, const FreeSpace& space, const std::vector<Bounds>& regions,
             const SampleVolume& sample, const VolumeSettings& settings)
-        : rays_(rays), space_(space), regions_(regions), sample_(sample), settings_(settings) {}
+        : rays_(rays),
+          space_(space),
+          regions_(regions),
+          sample_(sample),
+          settings_(settings),
+          judge_(out_, space, regions, settings) {}
 
     RefinedVolume refine(const StageProgress& progress) {
         lay_roots();
@@ -92,31 +79,11 @@ class Refiner {
                });
     }
 
-    /// Errors count where something is likely to be: not in the air around the scene that cells at its border reach.
-    bool counts(const Vec3& place) const {
-        const auto in = [&](const Bounds& b) {
-            return !b.empty() && glm::all(glm::greaterThanEqual(place, b.min)) &&
-                   glm::all(glm::lessThanEqual(place, b.max));
-        };
-        return in(space_.box()) || std::any_of(regions_.begin(), regions_.end(), in);
-    }
-
-    /// How much of it is likely to be free though none of its places is; 0: nothing can be in it.
-    double free_share(const Octree::Node& n) const {
-        const Bounds box{out_.octree.place(n.at), out_.octree.place(n.at + n.units())}, &all = space_.box();
-        const bool within = !all.empty() && glm::all(glm::greaterThanEqual(box.min, all.min)) &&
-                            glm::all(glm::lessThanEqual(box.max, all.max));
-        const bool beside = !within && std::any_of(regions_.begin(), regions_.end(), [&](const Bounds& b) {
-            return !b.empty() && glm::all(glm::lessThan(box.min, b.max)) && glm::all(glm::greaterThan(box.max, b.min));
-        });
-        return std::max(space_.reached_share(box), beside ? 1.0 : 0.0) / kLeafPlaces;
-    }
-
     void test(const std::vector<std::uint32_t>& leaves, const StageProgress& progress) {
         tested_.resize(out_.octree.nodes.size());
         find_places(leaves);
         const StageProgress silent{Progress{}};
-        for_each_parallel(leaves.size(), silent, [&](std::size_t i) { group(leaves[i]); });
+        for_each_parallel(leaves.size(), silent, [&](std::size_t i) { part(tested_[leaves[i]]); });
         std::vector<std::uint32_t> places;
         for (const std::uint32_t n : leaves)
             for (int p = 0; p < kLeafPlaces; ++p)
@@ -125,7 +92,10 @@ class Refiner {
                     places.push_back(tested_[n].leaf.place[std::size_t(p)]);
         sample(std::move(places), progress);
         sample_before_walls(leaves);
-        for_each_parallel(leaves.size(), silent, [&](std::size_t i) { judge(leaves[i]); });
+        for_each_parallel(leaves.size(), silent, [&](std::size_t i) {
+            Tested& tested = tested_[leaves[i]];
+            tested.error = judge_.judge(out_.octree.nodes[leaves[i]], tested.leaf, tested.mixed);
+        });
         waiting_.insert(waiting_.end(), leaves.begin(), leaves.end());
     }
 
@@ -154,98 +124,15 @@ class Refiner {
         for (std::size_t i = 0; i < free.size(); ++i) places[first + i].free = free[i] != 0;
     }
 
-    Vec3 place_of(const RefinedLeaf& leaf, int p) const {
-        return out_.octree.place(out_.places.places[leaf.place[std::size_t(p)]].at);
-    }
-    bool free(const RefinedLeaf& leaf, int p) const { return out_.places.places[leaf.place[std::size_t(p)]].free; }
-
-    /// Groups the free places of a leaf by what neighbours see each other, and parts two groups by a plane.
-    void group(std::uint32_t n) {
-        Tested& tested = tested_[n];
-        std::array<int, kLeafPlaces> of;
-        std::iota(of.begin(), of.end(), 0);
-        std::vector<std::pair<int, int>> blocked;
-        for (int p = 0; p < kLeafPlaces; ++p)
-            for (const auto& [stride, last] :
-                 {std::pair(1, p % 3 == 2), std::pair(3, p / 3 % 3 == 2), std::pair(9, p / 9 == 2)}) {
-                const int q = p + stride;
-                if (last || !free(tested.leaf, p) || !free(tested.leaf, q)) continue;
-                if (!space_.open(place_of(tested.leaf, p), place_of(tested.leaf, q)))
-                    blocked.emplace_back(p, q);
-                else if (of[std::size_t(p)] != of[std::size_t(q)])
-                    std::replace(of.begin(), of.end(), std::max(of[std::size_t(p)], of[std::size_t(q)]),
-                                 std::min(of[std::size_t(p)], of[std::size_t(q)]));
-            }
-        std::map<int, int> sizes;
-        for (int p = 0; p < kLeafPlaces; ++p)
-            if (free(tested.leaf, p)) ++sizes[of[std::size_t(p)]];
-        tested.groups = int(sizes.size());
-        if (tested.groups > 1) part(tested, of, blocked);
-        for (int p = 0; p < kLeafPlaces; ++p)
-            tested.leaf.side[std::size_t(p)] =
-                std::int8_t(!free(tested.leaf, p) ? -1
-                            : tested.plane        ? side_of(*tested.plane, place_of(tested.leaf, p))
-                                                  : 0);
-        if (tested.plane && !tested.parted) drop_minorities(tested, of);
-    }
-
-    static int side_of(const Vec4& plane, const Vec3& place) {
-        return glm::dot(Vec3(plane), place) + plane.w >= 0.0f ? 0 : 1;
-    }
-
-    /// The plane of a wall between blocked neighbours that parts the groups best.
-    void part(Tested& tested, const std::array<int, kLeafPlaces>& of,
-              const std::vector<std::pair<int, int>>& blocked) const {
-        int best = 0;
-        for (const auto& [p, q] : blocked) {
-            if (of[std::size_t(p)] == of[std::size_t(q)]) continue;
-            const Vec3 a = place_of(tested.leaf, p), b = place_of(tested.leaf, q);
-            const Vec3 along = glm::normalize(b - a);
-            const float length = glm::distance(a, b);
-            const auto from_a = rays_.closest({a, along, 0.0f, length}, 0),
-                       from_b = rays_.closest({b, -along, 0.0f, length}, 0);
-            if (!from_a || !from_b) continue;
-            const Vec3 middle = 0.5f * (a + from_a->distance * along + b - from_b->distance * along);
-            for (const Vec3& hit_normal : {from_a->normal, from_b->normal}) {
-                const Vec3 normal = glm::dot(hit_normal, along) > 0.0f ? -hit_normal : hit_normal;
-                const Vec4 plane(normal, -glm::dot(normal, middle));
-                const auto [right, wrong] = parted(tested.leaf, of, plane);
-                if (wrong == 0 && tested.groups == 2) {
-                    tested.plane = plane, tested.parted = true;
-                    return;
-                }
-                if (right - wrong > best) best = right - wrong, tested.plane = plane;
-            }
+    void part(Tested& tested) const {
+        std::array<Vec3, kLeafPlaces> places;
+        std::array<bool, kLeafPlaces> free;
+        for (std::size_t p = 0; p < kLeafPlaces; ++p) {
+            places[p] = out_.place(tested.leaf, int(p));
+            free[p] = out_.places.places[tested.leaf.place[p]].free;
         }
-    }
-
-    /// Places on the side where most of their group is, and those that are not.
-    std::pair<int, int> parted(const RefinedLeaf& leaf, const std::array<int, kLeafPlaces>& of,
-                               const Vec4& plane) const {
-        std::map<int, std::array<int, 2>> counts;
-        for (int p = 0; p < kLeafPlaces; ++p)
-            if (free(leaf, p)) ++counts[of[std::size_t(p)]][std::size_t(side_of(plane, place_of(leaf, p)))];
-        int right = 0, wrong = 0;
-        std::array<bool, 2> any{};
-        for (const auto& [g, count] : counts) {
-            right += std::max(count[0], count[1]), wrong += std::min(count[0], count[1]);
-            any[count[1] > count[0] ? 1 : 0] = true;
-        }
-        return any[0] && any[1] ? std::pair(right, wrong) : std::pair(0, kLeafPlaces);
-    }
-
-    /// Of either side only the largest group tells of its light.
-    void drop_minorities(Tested& tested, const std::array<int, kLeafPlaces>& of) const {
-        for (int side = 0; side < 2; ++side) {
-            std::map<int, int> sizes;
-            for (int p = 0; p < kLeafPlaces; ++p)
-                if (tested.leaf.side[std::size_t(p)] == side) ++sizes[of[std::size_t(p)]];
-            const auto largest = std::max_element(sizes.begin(), sizes.end(),
-                                                  [](const auto& a, const auto& b) { return a.second < b.second; });
-            for (int p = 0; p < kLeafPlaces; ++p)
-                if (tested.leaf.side[std::size_t(p)] == side && of[std::size_t(p)] != largest->first)
-                    tested.leaf.side[std::size_t(p)] = -1;
-        }
+        const LeafSides found = find_sides(places, free, rays_, space_);
+        tested.leaf.side = found.side, tested.plane = found.plane, tested.mixed = found.mixed;
     }
 
     /// Traces samples at places that have none.
@@ -261,155 +148,8 @@ class Refiner {
         });
         for (std::size_t i = 0; i < places.size(); ++i) {
             out_.places.places[places[i]].sample = int(first + i);
-            add_to_mean(out_.places.samples[first + i]);
+            judge_.add_to_mean(out_.places.samples[first + i]);
         }
-    }
-
-    const VolumeSample* sample_at(const RefinedLeaf& leaf, int p) const {
-        const int s = out_.places.places[leaf.place[std::size_t(p)]].sample;
-        return leaf.side[std::size_t(p)] >= 0 && s >= 0 ? &out_.places.samples[std::size_t(s)] : nullptr;
-    }
-
-    void judge(std::uint32_t n) {
-        Tested& tested = tested_[n];
-        const Octree::Node& node = out_.octree.nodes[n];
-        const int members =
-            int(std::count_if(tested.leaf.side.begin(), tested.leaf.side.end(), [](int s) { return s >= 0; }));
-        const double length = double(out_.octree.side_of(node)), volume = length * length * length;
-        tested.error = tested.square = 0.0;
-        if (members == 0) {
-            const double share = free_share(node);
-            if (share > 0.0) tested.error = kOutlier, tested.square = kUnseen * kUnseen * share * volume;
-            return;
-        }
-        if (tested.groups > 1 && !tested.parted) tested.error = kOutlier;
-        for (int side = 0; side < 2; ++side) {
-            const SideError found = side_error(tested, node, side);
-            int places = 0;
-            for (int p = 0; p < kLeafPlaces; ++p)
-                places += tested.leaf.side[std::size_t(p)] == side && counts(place_of(tested.leaf, p));
-            tested.error = std::max(tested.error, found.worst);
-            tested.square += found.square * volume * double(places) / kLeafPlaces;
-        }
-        tested.square *= 1.0 + kMoving * moving_share(node) + kEnclosed * enclosed(tested.leaf);
-        if (node.level < settings_.geometry_level && members < kLeafPlaces) tested.error = kOutlier;
-    }
-
-    /// How closely surfaces stand around a leaf, 0 to 1.
-    double enclosed(const RefinedLeaf& leaf) const {
-        double sum = 0.0;
-        int count = 0;
-        for (int p = 0; p < kLeafPlaces; ++p)
-            if (const VolumeSample* sample = is_corner(p) || is_test(p) ? sample_at(leaf, p) : nullptr) {
-                const double share = std::min(1.0, double(kRoom / sample->nearness));
-                sum += share * share, ++count;
-            }
-        return count > 0 ? sum / count : 0.0;
-    }
-
-    /// Of a cell, that the swept box takes which takes most of it; most of these overlap.
-    double moving_share(const Octree::Node& n) const {
-        const Bounds box{out_.octree.place(n.at), out_.octree.place(n.at + n.units())};
-        const Vec3 size = box.max - box.min;
-        double most = 0.0;
-        for (const Bounds& b : regions_) {
-            if (b.empty()) continue;
-            const Vec3 both = glm::max(glm::min(b.max, box.max) - glm::max(b.min, box.min), Vec3(0.0f)) / size;
-            most = std::max(most, double(both.x) * double(both.y) * double(both.z));
-        }
-        return most;
-    }
-
-    struct SideError {
-        double worst = 0.0;   // over the target
-        double square = 0.0;  // mean, over the light where it was measured
-    };
-
-    /// What is known about light at a corner: a sample, and where in [0,1]^3 it was taken.
-    struct StandIn {
-        const VolumeSample* sample = nullptr;
-        Vec3 from = Vec3(0.0f);
-    };
-
-    /// Between what was measured and what the corners say.
-    SideError side_error(const Tested& tested, const Octree::Node& node, int side) const {
-        const float length = out_.octree.side_of(node);
-        std::array<StandIn, 8> corners;
-        for (int c = 0; c < 8; ++c) corners[std::size_t(c)] = stand_in(tested.leaf, c, side);
-        SideError result;
-        if (!corners[0].sample) return result;
-        for (const StandIn& c : corners) result.worst = std::max(result.worst, by_controls(*c.sample, length));
-        double tests = 0.0;
-        for (int p = 0; p < kLeafPlaces; ++p)
-            if (!is_corner(p) && tested.leaf.side[std::size_t(p)] == side && sample_at(tested.leaf, p))
-                compare(corners, length, *sample_at(tested.leaf, p), t_of(p), tests, result);
-        for (const RefinedLeaf::WallSample& before : tested.leaf.before_walls)
-            if (is_test(before.place) && before.side == side)
-                compare(corners, length, out_.places.samples[std::size_t(before.sample)], before.t, tests, result);
-        if (tests > 0.0) result.square /= tests;
-        result.worst = std::min(result.worst, double(kOutlier));
-        return result;
-    }
-
-    void compare(const std::array<StandIn, 8>& corners, float length, const VolumeSample& measured, const Vec3& t,
-                 double& tests, SideError& result) const {
-        for (std::size_t f = 0; f < mean_.size(); ++f) {
-            const double mean = mean_[f] / double(out_.places.samples.size());
-            const double truth = double(measured.judged[f]), light = std::abs(truth) + double(kFloor) * mean;
-            const double left = std::abs(interpolated(corners, f, t, length) - truth) - 2.0 * double(measured.noise[f]);
-            tests += 1.0;
-            if (left <= 0.0 || mean <= 0.0) continue;
-            result.worst = std::max(result.worst, left / light / double(settings_.error));
-            const double share = std::min(left / light, kUnseen);
-            result.square += share * share;
-        }
-    }
-
-    double interpolated(const std::array<StandIn, 8>& corners, std::size_t f, const Vec3& t, float length) const {
-        const std::size_t functionals = mean_.size();
-        const std::array<Vec4, 8> blend = blend_weights(settings_.blend, t, length);
-        double sum = 0.0;
-        for (int c = 0; c < 8; ++c) {
-            const auto& [sample, from] = corners[std::size_t(c)];
-            const std::vector<float>& judged = sample->judged;
-            const Vec4& weights = blend[std::size_t(c)];
-            const float noise = sample->change_noise * length;
-            const Vec3 change =
-                Vec3(judged[functionals + f], judged[2 * functionals + f], judged[3 * functionals + f]) /
-                std::max(1.0f, noise * noise);
-            const Vec3 moved = length * (Vec3(c & 1, c >> 1 & 1, c >> 2) - from);
-            const float most = 0.5f * std::abs(judged[f]);
-            const float value = judged[f] + std::clamp(glm::dot(change, moved), -most, most);
-            sum += double(weights.x) * double(value) + double(glm::dot(Vec3(weights.y, weights.z, weights.w), change));
-        }
-        return sum;
-    }
-
-    /// Oat's tests of a corner alone.
-    double by_controls(const VolumeSample& s, float length) const {
-        if (s.nearness < settings_.harmonic_mean * length) return 2.0;
-        const std::size_t functionals = mean_.size();
-        for (std::size_t f = 0; f < functionals; ++f) {
-            const Vec3 change(s.judged[functionals + f], s.judged[2 * functionals + f], s.judged[3 * functionals + f]);
-            if (glm::length(change) * length > settings_.change * std::abs(s.judged[f])) return 2.0;
-        }
-        return 0.0;
-    }
-
-    /// The sample at a corner, or the nearest of the same side.
-    StandIn stand_in(const RefinedLeaf& leaf, int corner, int side) const {
-        const Vec3 at(corner & 1, corner >> 1 & 1, corner >> 2);
-        StandIn best;
-        float least = 1e9f;
-        const auto consider = [&](const VolumeSample* sample, const Vec3& t) {
-            if (sample && glm::distance(at, t) < least) least = glm::distance(at, t), best = {sample, t};
-        };
-        for (int p = 0; p < kLeafPlaces; ++p)
-            if (leaf.side[std::size_t(p)] == side) consider(sample_at(leaf, p), t_of(p));
-        for (const RefinedLeaf::WallSample& before : leaf.before_walls)
-            if (before.side == side && is_corner(before.place))
-                consider(&out_.places.samples[std::size_t(before.sample)], before.t);
-        return best;
     }
 
     /// Splits the leaves whose error matters most, and returns their children; none when all are well or the budget is
@@ -417,11 +157,11 @@ class Refiner {
     std::vector<std::uint32_t> split_worst() {
         const auto asked_for = [&](std::uint32_t n) { return out_.octree.nodes[n].level < settings_.min_level; };
         std::erase_if(waiting_, [&](std::uint32_t n) {
-            return (tested_[n].error <= 1.0 && !asked_for(n)) || out_.octree.nodes[n].level >= max_level_;
+            return (tested_[n].error.worst <= 1.0 && !asked_for(n)) || out_.octree.nodes[n].level >= max_level_;
         });
         std::stable_sort(waiting_.begin(), waiting_.end(), [&](std::uint32_t a, std::uint32_t b) {
             if (asked_for(a) != asked_for(b)) return asked_for(a);
-            return tested_[a].square > tested_[b].square;
+            return tested_[a].error.square > tested_[b].error.square;
         });
         const auto forced = std::size_t(std::count_if(waiting_.begin(), waiting_.end(), asked_for));
         std::vector<std::uint32_t> children;
@@ -480,7 +220,9 @@ class Refiner {
                     if (!(is_corner(p) || is_test(p)) || leaf.side[std::size_t(p)] == side) continue;
                     const int from = nearest_place(leaf, side, t_of(p));
                     if (from < 0) continue;
-                    const std::optional<Vec3> place = before_wall(place_of(leaf, from), place_of(leaf, p), node);
+                    const std::optional<Vec3> place =
+                        before_wall(rays_, space_.box(), out_.place(leaf, from), out_.place(leaf, p),
+                                    kBeforeWall * out_.octree.side_of(node));
                     if (!place) continue;
                     const auto [at, is_new] = before_wall_.try_emplace(
                         {leaf.place[std::size_t(p)], leaf.place[std::size_t(from)]}, first + int(asked.size()));
@@ -495,12 +237,7 @@ class Refiner {
             out_.places.samples[std::size_t(first) + i] = sample_(asked[i].first, asked[i].second);
         });
         for (std::size_t i = std::size_t(first); i < out_.places.samples.size(); ++i)
-            add_to_mean(out_.places.samples[i]);
-    }
-
-    void add_to_mean(const VolumeSample& sample) {
-        mean_.resize(sample.judged.size() / 4, 0.0);
-        for (std::size_t f = 0; f < mean_.size(); ++f) mean_[f] += double(sample.judged[f]);
+            judge_.add_to_mean(out_.places.samples[i]);
     }
 
     /// The place of this side that is nearest; -1: there is none.
@@ -511,27 +248,6 @@ class Refiner {
                 (best < 0 || glm::distance(t, t_of(p)) < glm::distance(t, t_of(best))))
                 best = p;
         return best;
-    }
-
-    /// On the way from one place to another, just before what is met first: a surface, or the end of the scene's box.
-    std::optional<Vec3> before_wall(const Vec3& from, const Vec3& to, const Octree::Node& node) const {
-        const float length = glm::distance(from, to);
-        const Vec3 along = (to - from) / length;
-        const std::optional<Hit> met = rays_.closest({from, along, 0.0f, length}, 0);
-        const float end = std::min(met ? met->distance : length, length * share_inside(space_.box(), from, to));
-        if (!met && end >= length) return std::nullopt;
-        return from + (end - std::min(kBeforeWall * out_.octree.side_of(node), 0.5f * end)) * along;
-    }
-
-    /// Of the way from a place in a box to another; 1 where it starts outside.
-    static float share_inside(const Bounds& box, const Vec3& from, const Vec3& to) {
-        float share = 1.0f;
-        for (int a = 0; a < 3; ++a) {
-            if (box.empty() || from[a] < box.min[a] || from[a] > box.max[a]) return 1.0f;
-            if (to[a] < box.min[a]) share = std::min(share, (box.min[a] - from[a]) / (to[a] - from[a]));
-            if (to[a] > box.max[a]) share = std::min(share, (box.max[a] - from[a]) / (to[a] - from[a]));
-        }
-        return share;
     }
 
     /// Eight empty leaves are one.
@@ -554,11 +270,11 @@ class Refiner {
     const SampleVolume& sample_;
     const VolumeSettings& settings_;
     RefinedVolume out_;
+    LeafJudge judge_;
     std::unordered_map<Lattice, std::uint32_t, LatticeHash> index_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> before_wall_;  // by corner and place that it is seen from
     std::vector<Tested> tested_;                                          // by node
     std::vector<std::uint32_t> waiting_;                                  // leaves that may be split
-    std::vector<double> mean_;                                            // sums over samples
     int max_level_ = 0;
 };
 

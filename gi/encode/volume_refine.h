@@ -5,11 +5,11 @@
 #include <optional>
 
 #include "engine/base/progress.h"
+#include "gi/encode/leaf_walls.h"
 #include "gi/encode/sample_light.h"
 #include "gi/encode/volume_octree.h"
 #include "gi/encode/volume_settings.h"
 #include "gi/parallel.h"
-#include "gi/surface/free_space.h"
 
 namespace daylit {
 
@@ -38,17 +38,14 @@ struct VolumePlaces {
     std::vector<VolumeSample> samples;
 };
 
-/// The 27 places of a leaf, x fastest: corners, middles of edges and faces, the centre.
-inline constexpr int kLeafPlaces = 27;
-
-/// Where in the leaf a place is, [0, 1].
-inline Vec3 t_of(int place) {
-    return 0.5f * Vec3(place % 3, place / 3 % 3, place / 9);
+/// Centre of the cell or of a face: what is measured beside the corners.
+inline bool is_test(int place) {
+    return (place % 3 == 1) + (place / 3 % 3 == 1) + (place / 9 == 1) >= 2;
 }
 
 struct RefinedLeaf {
     std::array<std::uint32_t, kLeafPlaces> place{};  // index into places
-    std::array<std::int8_t, kLeafPlaces> side{};     // -1: of no cell; 0: of the leaf or its front; 1: of its back
+    std::array<std::int8_t, kLeafPlaces> side{};     // as in LeafSides
 
     /// Taken in the open, just before the wall that one of the places lies behind.
     struct WallSample {
@@ -64,6 +61,15 @@ struct RefinedVolume {
     VolumePlaces places;
     std::map<std::uint32_t, RefinedLeaf> leaves;  // those with cells
     bool budget_spent = false;
+
+    Vec3 place(const RefinedLeaf& leaf, int p) const {
+        return octree.place(places.places[leaf.place[std::size_t(p)]].at);
+    }
+    /// Of a place that is of a cell; null: none was taken.
+    const VolumeSample* sample(const RefinedLeaf& leaf, int p) const {
+        const int s = places.places[leaf.place[std::size_t(p)]].sample;
+        return leaf.side[std::size_t(p)] >= 0 && s >= 0 ? &places.samples[std::size_t(s)] : nullptr;
+    }
 };
 
 /// Roots alone, over the scene's box and the regions: cubes of an eighth of the longest side.
