@@ -25,6 +25,8 @@ constexpr double kPreviewCells = 3000, kMostCells = 20000;
 // Of how much finer than preview a bake is, for the number of cells: every sample waits in memory until records are
 // fitted.
 constexpr double kCellsPower = 0.68;
+// Of a bake's error, what rounding a volume's records may bring: squares of errors add up.
+constexpr double kRounding = 0.1;
 // Below it the sun adds nothing to the night's own light (engine/scene/sky.cpp draws no sky there).
 constexpr double kDeepNight = -20.0 * kDegree;
 
@@ -52,6 +54,7 @@ VolumeSettings volume_settings(const BakeSettings& settings) {
         result.most_cells = std::size_t(settings.tuning.cells *
                                         std::clamp(kPreviewCells * std::pow(finer, kCellsPower), 500.0, kMostCells));
     if (result.rays == 0) result.rays = rays_per_sample(settings.error);
+    if (result.rounding == 0.0f) result.rounding = float(kRounding * settings.error);
     result.seed = settings.seed;
     return result;
 }

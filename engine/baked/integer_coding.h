@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/baked/bytes.h"
@@ -11,6 +12,11 @@ namespace daylit {
 
 void put_integers(ByteWriter& w, const std::vector<std::int16_t>& values);
 std::vector<std::int16_t> get_integers(ByteReader& r, std::size_t count);
+
+/// The same for integers most of which are 0, 1 or -1: two bits each, and bytes for what they cannot say. A general
+/// compressor spends a bit on every byte at least.
+void put_small_integers(ByteWriter& w, std::span<const std::int16_t> values);
+std::vector<std::int16_t> get_small_integers(ByteReader& r, std::size_t count);
 
 /// What a texel of a plane is expected to be from those left of it and above it in its tile (the median predictor of
 /// Weinberger, Seroussi and Sapiro, LOCO-I, 2000). Tiles are squares of `side` texels from the plane's corner.

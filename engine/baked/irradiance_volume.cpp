@@ -37,7 +37,7 @@ std::vector<Vec4> IrradianceVolume::records(std::span<const Rgb> weights) const 
             for (std::size_t i = 0; i < kRecordNumbers; ++i) {
                 const std::size_t step = i % 3 * count + s;
                 const float change = change_step[step] / sides[s];  // a metre
-                result[s * kRecordNumbers + i] *= Vec4(value_step[step], change, change, change);
+                result[s * kRecordNumbers + i] *= band_step(i) * Vec4(value_step[step], change, change, change);
             }
     });
     fill_hanging(tree, result);

@@ -1,6 +1,7 @@
 #pragma once
 // Indirect light in free space over the day, for what moves: radiance SH and its change from place to place, at the
 // corners of an octree's cells (Oat 2005), blended so that no border between cells shows.
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -13,6 +14,15 @@ namespace daylit {
 /// Of a record's value: RGB of each coefficient.
 inline constexpr std::size_t kRecordNumbers = glsl::kVolumeNumbers;
 
+/// Steps that numbers of the three bands are kept in, over the record's. The clamped cosine weighs bands by pi, 2 pi /
+/// 3 and pi / 4 (shaders/shared/sh.h): with these, errors of irradiance are much the same from each, which takes the
+/// fewest bits.
+inline constexpr std::array<float, 3> kBandSteps = {1.0f, 2.0f, 4.0f};
+/// number   coefficient * 3 + channel
+inline constexpr float band_step(std::size_t number) {
+    return kBandSteps[number < 3 ? 0 : number < 12 ? 1 : 2];
+}
+
 /// What is stored is *indirect* light: what comes from sky and surfaces, not straight from suns and lamps.
 struct IrradianceVolume {
     VolumeTree tree;
@@ -23,8 +33,8 @@ struct IrradianceVolume {
     /// Its change along x, y and z over the side of the largest cell that shares the record, in steps of changes:
     /// [component][axis][coefficient * 3 + channel][record].
     std::vector<std::int8_t> changes;
-    /// [channel][record], so that a dark room beside a bright one keeps its light, and a dim channel its colour; not
-    /// negative.
+    /// What a step is times band_step(): [channel][record], so that a dark room beside a bright one keeps its light,
+    /// and a dim channel its colour; not negative.
     std::vector<float> value_step, change_step;
 
     /// Bytes that a renderer keeps: cells, and the records of one moment.

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/baked/integer_coding.h"
 #include "engine/baked/light_basis_bytes.h"
+#include "engine/baked/record_coding.h"
 
 namespace daylit {
 namespace {
@@ -65,8 +65,8 @@ std::size_t tree_bytes(const Counts& c) {
 Bytes code_records(const IrradianceVolume& volume) {
     ByteWriter w;
     w.put_all(volume.value_step), w.put_all(volume.change_step);
-    w.put_all(volume.changes);
-    put_integers(w, volume.values);
+    put_planes<std::int8_t>(w, volume.changes, volume.tree.samples);
+    put_planes<std::int16_t>(w, volume.values, volume.tree.samples);
     return w.take();
 }
 
@@ -81,7 +81,7 @@ std::vector<float> decode_steps(ByteReader& r, std::size_t count) {
 
 std::vector<CodedSection> code_volume(const IrradianceVolume& volume) {
     return {code_section("VOLU", code_shape(volume)), code_section("VOTR", code_tree(volume.tree)),
-            code_section("VORE", code_records(volume))};
+            code_section(kRecordSection, code_records(volume))};
 }
 
 bool has_volume(const SectionFile& file) {
@@ -94,11 +94,14 @@ IrradianceVolume read_volume(const SectionFile& file) {
     decode_tree(file.open("VOTR", tree_bytes(counts)), counts, volume.tree);
     const std::size_t count = volume.tree.samples,
                       numbers = std::size_t(volume.basis.components) * kRecordNumbers * count;
-    ByteReader r = file.open("VORE", 6 * sizeof(float) * count + 5 * numbers);
+    constexpr double kMostBytes = 2.25;  // of a number
+    constexpr std::size_t kCounts = 2 * (sizeof(std::uint64_t) + 1);
+    ByteReader r =
+        file.open(kRecordSection, 6 * sizeof(float) * count + std::size_t(4 * kMostBytes * double(numbers)) + kCounts);
     volume.value_step = decode_steps(r, 3 * count);
     volume.change_step = decode_steps(r, 3 * count);
-    volume.changes = r.get_all<std::int8_t>(3 * numbers);
-    volume.values = get_integers(r, numbers);
+    volume.changes = get_planes<std::int8_t>(r, 3 * numbers, count);
+    volume.values = get_planes<std::int16_t>(r, numbers, count);
     r.expect_end();
     return volume;
 }

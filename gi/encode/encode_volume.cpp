@@ -21,7 +21,6 @@ constexpr int kPilots = 400;  // samples that the basis is chosen by,
 // with at least so many rays: what noise adds to their light would ask for components, in place of light that is there.
 constexpr int kPilotRays = 1024;
 constexpr std::size_t kJudgedMoments = 6;
-constexpr float kStoredNoise = 0.002f;  // of a record's light, by rounding: below what its rays leave of noise
 // Three bands of a single far light ring by 4 to 6 % of its brightness: less than a window would dim its bright side
 // by.
 constexpr float kCutShare = 0.05f;
@@ -331,7 +330,7 @@ EncodedVolume VolumeEncoder::encode(const VolumeSettings& settings, const StageP
                          double(window(fit.records.data() + 4 * r * kRecordNumbers * components, components, s.judge)));
     result.volume.tree = cells.tree;
     result.volume.basis = s.basis.stored;
-    store_records(fit.records, kStoredNoise, result.volume);
+    store_records(fit.records, settings.rounding, result.volume);
     if (settings.blend == VolumeBlend::Adini)
         result.error = measure(cells, refined, result.volume, s.basis.dense, s.judged);
     result.samples = refined.places.samples.size();

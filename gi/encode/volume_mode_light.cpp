@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/baked/integer_coding.h"
+#include "engine/baked/record_coding.h"
 #include "engine/baked/volume_sections.h"
 #include "engine/base/error.h"
 #include "shaders/shared/sh.h"
@@ -24,18 +24,18 @@ int coefficients_of(VolumeBands bands) {
 Bytes code_kept(const IrradianceVolume& volume, const VolumeScheme& mode) {
     ByteWriter w;
     const std::size_t count = volume.tree.samples, components = std::size_t(volume.basis.components);
-    const auto kept = 3 * std::size_t(coefficients_of(mode.bands));
-    const auto kept_planes = [&](const auto& numbers, std::size_t planes) {
-        std::remove_cvref_t<decltype(numbers)> result;
+    const auto put_kept = [&]<class Integer>(const std::vector<Integer>& numbers, std::size_t planes) {
+        std::vector<Integer> kept;
         for (std::size_t p = 0; p < planes; ++p) {
             const auto first = numbers.begin() + std::ptrdiff_t(p * kRecordNumbers * count);
-            result.insert(result.end(), first, first + std::ptrdiff_t(kept * count));
+            kept.insert(kept.end(), first,
+                        first + std::ptrdiff_t(3 * std::size_t(coefficients_of(mode.bands)) * count));
         }
-        return result;
+        put_planes<Integer>(w, kept, count);
     };
     w.put_all(volume.value_step);
-    if (uses_changes(mode.blend)) w.put_all(volume.change_step), w.put_all(kept_planes(volume.changes, 3 * components));
-    put_integers(w, kept_planes(volume.values, components));
+    if (uses_changes(mode.blend)) w.put_all(volume.change_step), put_kept(volume.changes, 3 * components);
+    put_kept(volume.values, components);
     return w.take();
 }
 
@@ -84,12 +84,12 @@ Rgb zh3_irradiance(const glsl::VolumeSh& sh, const Vec3& normal) {
 }
 
 double stored_bytes(const IrradianceVolume& volume, const VolumeScheme& mode) {
-    double bytes = double(code_section("VORE", code_kept(volume, mode)).stored.size());
+    double bytes = double(code_section(kRecordSection, code_kept(volume, mode)).stored.size());
     // What the fourth band would hold is not known here; that it takes as much as the others do is.
     if (mode.bands == VolumeBands::Four) bytes = std::round(bytes * 16.0 / 9.0);
     if (mode.grid) return bytes;
     for (const CodedSection& section : code_volume(volume))
-        if (std::string_view(section.entry.name.data(), 4) != "VORE") bytes += double(section.stored.size());
+        if (std::string_view(section.entry.name.data(), 4) != kRecordSection) bytes += double(section.stored.size());
     return bytes;
 }
 

@@ -10,12 +10,16 @@ namespace daylit {
 namespace {
 
 constexpr float kMostValue = 32767.0f, kMostChange = 127.0f;
-// What one and the same error of every coefficient does to irradiance, RMS over normals: the root of the sum of
-// kShCosine^2 over the nine, over 4 pi.
-constexpr float kLobeNorm = 1.442f;
+// What errors of one step of its band in every coefficient do to irradiance, RMS over normals: the root of the sum over
+// the nine of (kShCosine * band_step)^2, over 4 pi.
+constexpr float kLobeNorm = 2.983f;
 // Inside a cell the changes of its corners weigh, RMS, 0.30 of what their values do (Hermite's h10 against h00, along
 // one of three axes, three of them): steps larger by that share add as much noise.
 constexpr float kChangeSteps = 3.4f;
+
+long rounded(float steps, float most) {
+    return std::lround(std::clamp(steps, -most, most));
+}
 
 /// One record's numbers.
 class Record {
@@ -26,11 +30,13 @@ class Record {
     float at(std::size_t part, std::size_t i, std::size_t component) const {
         return first_[(part * kRecordNumbers + i) * components_ + component];
     }
+    /// In steps of its band.
     float largest(std::size_t first_part, std::size_t last_part, std::size_t channel) const {
         float found = 0.0f;
         for (std::size_t part = first_part; part <= last_part; ++part)
             for (std::size_t i = channel; i < kRecordNumbers; i += 3)
-                for (std::size_t r = 0; r < components_; ++r) found = std::max(found, std::abs(at(part, i, r)));
+                for (std::size_t r = 0; r < components_; ++r)
+                    found = std::max(found, std::abs(at(part, i, r)) / band_step(i));
         return found;
     }
     /// Of irradiance, RMS over normals and moments.
@@ -70,12 +76,13 @@ void store_records(std::span<const float> records, float noise, IrradianceVolume
             volume.change_step[channel * count + s] = change_step;
             for (std::size_t r = 0; r < components; ++r)
                 for (std::size_t i = channel; i < kRecordNumbers; i += 3) {
+                    const float band = band_step(i);
                     if (step > 0.0f)
                         volume.values[(r * kRecordNumbers + i) * count + s] =
-                            std::int16_t(std::lround(std::clamp(record.at(0, i, r) / step, -kMostValue, kMostValue)));
+                            std::int16_t(rounded(record.at(0, i, r) / (step * band), kMostValue));
                     for (std::size_t a = 0; a < 3; ++a)
-                        volume.changes[((r * 3 + a) * kRecordNumbers + i) * count + s] = std::int8_t(std::lround(
-                            std::clamp(record.at(a + 1, i, r) * sides[s] / change_step, -kMostChange, kMostChange)));
+                        volume.changes[((r * 3 + a) * kRecordNumbers + i) * count + s] =
+                            std::int8_t(rounded(record.at(a + 1, i, r) * sides[s] / (change_step * band), kMostChange));
                 }
         }
 }

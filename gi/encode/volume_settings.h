@@ -28,7 +28,8 @@ struct VolumeSettings {
     int geometry_level = 0;
     // The budget, which goes where it takes away most of the mean square error.
     std::size_t most_cells = 0;
-    int rays = 0;  // of a sample
+    int rays = 0;           // of a sample
+    float rounding = 0.0f;  // of a record's own light, by keeping it as whole numbers (volume_records.h)
     std::uint64_t seed = 1;
     /// What refinement and records follow; look-ups of the runtime know Adini alone.
     VolumeBlend blend = VolumeBlend::Adini;

@@ -23,11 +23,14 @@ struct Stored {
     }
     float value(std::size_t s, std::size_t i, std::size_t r) const {
         return float(volume.values[(r * kRecordNumbers + i) * volume.tree.samples + s]) *
-               volume.value_step[i % 3 * volume.tree.samples + s];
+               volume.value_step[i % 3 * volume.tree.samples + s] * band_step(i);
     }
     float change(std::size_t s, std::size_t axis, std::size_t i, std::size_t r) const {
         return float(volume.changes[((r * 3 + axis) * kRecordNumbers + i) * volume.tree.samples + s]) *
-               volume.change_step[i % 3 * volume.tree.samples + s];
+               change_step(s, i);
+    }
+    float change_step(std::size_t s, std::size_t i) const {
+        return volume.change_step[i % 3 * volume.tree.samples + s] * band_step(i);
     }
     /// Error of irradiance over irradiance, both RMS over normals, channels and components.
     double noise(std::size_t s) const {
@@ -91,7 +94,7 @@ TEST(VolumeRecords, ChangesArriveWithinHalfAStep) {
             for (std::size_t i = 0; i < kRecordNumbers; ++i)
                 for (std::size_t r = 0; r < kComponents; ++r)
                     ASSERT_NEAR(made.change(s, axis, i, r), made.record(s, axis + 1, i, r),  // cells of a metre
-                                0.501 * double(made.volume.change_step[i % 3 * made.volume.tree.samples + s]));
+                                0.501 * double(made.change_step(s, i)));
 }
 
 TEST(VolumeRecords, LightThatOneStepCannotSpanTakesALargerOneAndNoLightTakesNone) {

@@ -37,7 +37,8 @@ IrradianceVolume volume_of(const Vec3& origin, const std::array<int, 3>& size, c
             largest = std::max(largest, std::abs(all.back()));
         }
     const float step = std::exp2(std::ceil(std::log2(largest / 32767.0f)));  // whole numbers stay as they are
-    for (const float number : all) volume.values.push_back(std::int16_t(std::lround(number / step)));
+    for (std::size_t i = 0; i < all.size(); ++i)
+        volume.values.push_back(std::int16_t(std::lround(all[i] / (step * band_step(i / tree.samples)))));
     volume.value_step.assign(3 * tree.samples, step);
     volume.changes.assign(3 * volume.values.size(), 0);
     volume.change_step.assign(3 * tree.samples, 0.0f);

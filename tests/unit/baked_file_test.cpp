@@ -9,6 +9,7 @@
 
 #include "engine/baked/integer_coding.h"
 #include "engine/baked/light_basis_bytes.h"
+#include "engine/baked/record_coding.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 
@@ -307,6 +308,45 @@ TEST(IntegerCoding, EveryNumberComesBack) {
     put_integers(w, values);
     ByteReader r(w.take(), "a file", "a section");
     EXPECT_EQ(get_integers(r, values.size()), values);
+}
+
+TEST(IntegerCoding, SmallNumbersComeBackFromFewBytes) {
+    std::vector<std::int16_t> values(4000);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::int16_t(i % 3) - 1;
+    ByteWriter few;
+    put_small_integers(few, values);
+    Bytes bytes = few.take();
+    EXPECT_EQ(bytes.size(), 8u + 1000u);
+    ByteReader r(std::move(bytes), "a file", "a section");
+    EXPECT_EQ(get_small_integers(r, values.size()), values);
+
+    for (int v = -32768; v < 32768; v += 7) values.push_back(std::int16_t(v));
+    values.push_back(32767), values.push_back(-32768);
+    ByteWriter w;
+    put_small_integers(w, values);
+    bytes = w.take();
+    ByteReader all(bytes, "a file", "a section");
+    EXPECT_EQ(get_small_integers(all, values.size()), values);
+    bytes.pop_back();
+    ByteReader cut(bytes, "a file", "a section");
+    EXPECT_THROW(get_small_integers(cut, values.size()), Error);
+}
+
+TEST(RecordCoding, PlanesComeBackWhateverTheyDifferBy) {
+    std::vector<std::int8_t> numbers;
+    for (int i = 0; i < 3 * 256 * 2; ++i) numbers.push_back(std::int8_t(i * i / 7 + 31 * i));
+    ByteWriter w;
+    put_planes<std::int8_t>(w, numbers, 256);
+    ByteReader r(w.take(), "a file", "a section");
+    EXPECT_EQ(get_planes<std::int8_t>(r, numbers.size(), 256), numbers);
+}
+
+TEST(RecordCoding, ChannelsThatAreAlikeTakeNoMoreThanOne) {
+    std::vector<std::int16_t> gray(3 * 1000);
+    for (std::size_t i = 0; i < gray.size(); ++i) gray[i] = std::int16_t(500 + i % 1000);
+    ByteWriter w;
+    put_planes<std::int16_t>(w, gray, 1000);
+    EXPECT_EQ(w.take().size(), 8u + 750u + 2000u);  // two bits each, and two bytes more of green's
 }
 
 TEST(DayLightmap, FetchesBilinearly) {
