@@ -16,7 +16,7 @@ constexpr std::size_t kNeighbours = 48;
 constexpr float kSigma = 1.6f;            // of the Gaussian, texels
 constexpr float kSigmaOfNearness = 0.2f;  // and at most this share of the mean distance of what is seen
 constexpr float kReach = 2.5f;            // sigmas
-constexpr float kMinCosine = 0.9f;
+constexpr float kLeastFacing = 0.9f;
 constexpr float kPlane = 0.25f;  // texels out of the tangent plane at which the weight falls to 1/e
 constexpr double kStiff = 0.01;  // squared texels on top of the neighbours' spread: few of them tell no slope
 
@@ -46,13 +46,13 @@ class Neighbourhood {
         const Vec3 offset = texels_.position[b] - texels_.position[a];
         const float square = glm::dot(offset, offset);
         const float cosine = glm::dot(texels_.normal[a], texels_.normal[b]);
-        if (square > kReach * kReach * sigma * sigma || cosine < kMinCosine) return 0.0f;
+        if (square > kReach * kReach * sigma * sigma || cosine < kLeastFacing) return 0.0f;
         const float out =
             std::max(std::abs(glm::dot(offset, texels_.normal[a])), std::abs(glm::dot(offset, texels_.normal[b])));
         const float in_plane = out / (kPlane * width);
         if (!sees(a, b)) return 0.0f;
-        return std::exp(-0.5f * square / (sigma * sigma) - in_plane * in_plane) * (cosine - kMinCosine) /
-               (1.0f - kMinCosine);
+        return std::exp(-0.5f * square / (sigma * sigma) - in_plane * in_plane) * (cosine - kLeastFacing) /
+               (1.0f - kLeastFacing);
     }
 
   private:
