@@ -24,7 +24,7 @@ constexpr int kFewestSampleRays = 96, kMostSampleRays = 3072;
 constexpr double kPreviewCells = 3000, kMostCells = 20000;
 // Of how much finer than preview a bake is, for the number of cells: every sample waits in memory until records are
 // fitted.
-constexpr double kCellsPower = 0.68;
+constexpr double kCellsPower = 0.9;
 // Of a bake's error, what rounding a volume's records may bring: squares of errors add up.
 constexpr double kRounding = 0.1;
 // Below it the sun adds nothing to the night's own light (engine/scene/sky.cpp draws no sky there).
