@@ -24,17 +24,35 @@ struct SunReceiver {
     int layer;
 };
 
-// Lit share of the four texels around a place, bilinear; depth is the plane's at that place.
-float lit_bilinear(SunReceiver r, vec2 offset, float slack) {
+// Metres that the maps' blockers stand above the receiver's plane, in the four texels around a place; f: where between them.
+vec4 heights_around(SunReceiver r, vec2 offset, out vec2 f) {
     vec2 place = r.texel + offset;
     vec2 base = floor(place - 0.5);
-    vec2 f = place - 0.5 - base;
+    f = place - 0.5 - base;
     vec4 z = textureGather(sun_depth, vec3((base + 1.0) / frame.counts.z, float(r.layer))) * r.scale;
     vec4 dx = vec4(0.0, 1.0, 1.0, 0.0) - f.x + offset.x;
     vec4 dy = vec4(1.0, 1.0, 0.0, 0.0) - f.y + offset.y;
-    vec4 lit = step(r.depth + r.gradient.x * dx + r.gradient.y * dy - slack, z);
-    vec2 rows = mix(lit.wx, lit.zy, f.x);
+    return r.depth + r.gradient.x * dx + r.gradient.y * dy - z;
+}
+
+float between_texels(vec4 v, vec2 f) {
+    vec2 rows = mix(v.wx, v.zy, f.x);
     return mix(rows.x, rows.y, f.y);
+}
+
+// Lit share of the four texels around a place, bilinear; depth is the plane's at that place.
+float lit_bilinear(SunReceiver r, vec2 offset, float slack) {
+    vec2 f;
+    vec4 height = heights_around(r, offset, f);
+    return between_texels(step(height, vec4(slack)), f);
+}
+
+// Share of the point's own four texels whose blockers stand so low that their penumbra is narrower than a texel: past them
+// nothing comes, wherever the taps of a far blocker's wide kernel fall.
+float shut_share(SunReceiver r, float slack, float low) {
+    vec2 f;
+    vec4 height = heights_around(r, vec2(0.0), f);
+    return between_texels(step(vec4(slack), height) * step(height, vec4(low)), f);
 }
 
 // Interleaved gradient noise (Jimenez 2014): neighbouring pixels turn the taps differently.
@@ -66,12 +84,7 @@ float lit_share(SunReceiver r, float reach, float slack, int taps) {
         }
     }
     float radius = 0.0;
-    if (blockers > 0.0) {
-        float height = heights / blockers;
-        radius = max(spread * height, 0.5);
-        // What stands much lower than the blockers (a wall that rises beside the point) does not belong to this penumbra.
-        slack = max(slack, 0.1 * height);
-    }
+    if (blockers > 0.0) radius = max(spread * heights / blockers, 0.5);
     int count = blockers > 0.0 ? taps : 1;
     float lit = 0.0;
     direction = first;
@@ -79,7 +92,9 @@ float lit_share(SunReceiver r, float reach, float slack, int taps) {
         lit += lit_bilinear(r, direction * (radius * sqrt((float(i) + 0.5) / float(count))), slack);
         direction = kGoldenTurn * direction;
     }
-    return lit / float(count);
+    lit /= float(count);
+    for (int i = 0; i < 1 && blockers > 0.0; ++i) lit *= 1.0 - shut_share(r, slack, 0.5 / spread);
+    return lit;
 }
 
 // position: world; normal: of the face, turned to the side that is seen. Zero when that side turns away from the sun.

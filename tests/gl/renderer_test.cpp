@@ -129,6 +129,23 @@ TEST_F(RendererTest, penumbra_of_an_edge_is_that_of_the_disc_gl) {
     EXPECT_NEAR(width / expected_width, 1.0, 0.15);
 }
 
+TEST_F(RendererTest, a_low_vault_is_dark_under_the_penumbra_of_a_far_roof_gl) {
+    // The vault half a metre up hides the sun from all but what lies under its slit, half a metre aside; under the edge
+    // of the roof, sixty metres up, maps hold now the one and now the other.
+    const Scene scene = scene_of({ground(Vec3(0), 5, 5, 0), ground(Vec3(-2.25f, 0.5f, 0), 2.75f, 5, 0),
+                                  ground(Vec3(2.8f, 0.5f, 0), 2.2f, 5, 0), ground(Vec3(-2.5f, 60, 0), 2.5f, 5, 0)},
+                                 {lambert(Rgb(0.8f))});
+    Renderer renderer(scene, nullptr);
+    renderer.set_lighting(one_sun({0, 1, 0}, 100000.0f));
+    renderer.draw(frame_of(from_above(2.0f, Vec3(0), 0.25f), 128, 128));
+    const Image image = renderer.read_radiance();
+    for (int x = 0; x < 128; ++x) {
+        const double at = (x + 0.5) / 64.0 - 1.0;
+        for (int y = 0; y < 128 && std::abs(at - 0.55) > 0.1; ++y) ASSERT_EQ(image.at(x, y).g, 0.0f) << at;
+    }
+    EXPECT_GT(image.at(99, 64).g, 10000.0f);
+}
+
 TEST_F(RendererTest, shadow_of_a_wall_ends_where_the_sun_says_gl) {
     // A wall of no thickness, 1 m high along z at x = 0; the sun 45 degrees up over -x: shadow from 0 to 1 m.
     Primitive wall = quad({0, 0, 2}, {0, 0, -2}, {0, 1, -2}, {0, 1, 2}, 0);
