@@ -12,7 +12,10 @@ constexpr double kMoving = 63.0;  // what errors count where things move, on top
 // What errors count where surfaces stand around within the size of a room, on top: what is indoors is seen from near.
 constexpr double kEnclosed = 5.0;
 constexpr float kRoom = 5.0f;
-constexpr float kFloor = 0.1f;  // of the volume's mean light that errors are compared with, beside the light there
+// Errors are compared with the light there, and beside it with this share of the volume's mean light where budget goes,
+// or of all light of the place where it is asked whether a cell is well enough: in a dark room beside a bright one it
+// is to be well enough as well.
+constexpr double kFloor = 0.1;
 
 }  // namespace
 
@@ -122,13 +125,14 @@ LeafJudge::SideError LeafJudge::side_error(const RefinedLeaf& leaf, const Octree
 
 void LeafJudge::compare(const std::array<StandIn, 8>& corners, float length, const VolumeSample& measured,
                         const Vec3& t, SideError& result) const {
+    const double own = kFloor * brightness(measured);
     for (std::size_t f = 0; f < mean_.size(); ++f) {
         const double mean = mean_[f] / double(volume_.places.samples.size());
-        const double truth = double(measured.judged[f]), light = std::abs(truth) + double(kFloor) * mean;
+        const double truth = double(measured.judged[f]), light = std::abs(truth) + kFloor * mean;
         const double left = std::abs(interpolated(corners, f, t, length) - truth) - 2.0 * double(measured.noise[f]);
         result.tests += 1.0;
         if (left <= 0.0 || mean <= 0.0) continue;
-        result.worst = std::max(result.worst, left / light / double(settings_.error));
+        result.worst = std::max(result.worst, left / (std::abs(truth) + own) / double(settings_.error));
         const double share = std::min(left / light, kUnseen);
         result.squares += share * share;
     }

@@ -91,13 +91,6 @@ class Fitter {
             side_.push_back(refined_.octree.side_of(refined_.octree.nodes[corner.seen_by[0].leaf]));
     }
 
-    static double brightness(const VolumeSample& sample) {
-        double sum = 0.0;
-        const std::size_t functionals = sample.judged.size() / 4;
-        for (std::size_t f = 0; f < functionals; ++f) sum += double(sample.judged[f]) * double(sample.judged[f]);
-        return functionals ? std::sqrt(sum / double(functionals)) : 0.0;
-    }
-
     void find_darkest() {
         double sum = 0.0;
         for (const VolumeSample& s : refined_.places.samples) sum += brightness(s);

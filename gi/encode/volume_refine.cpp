@@ -280,6 +280,13 @@ class Refiner {
 
 }  // namespace
 
+double brightness(const VolumeSample& sample) {
+    double sum = 0.0;
+    const std::size_t functionals = sample.judged.size() / 4;
+    for (std::size_t f = 0; f < functionals; ++f) sum += double(sample.judged[f]) * double(sample.judged[f]);
+    return functionals ? std::sqrt(sum / double(functionals)) : 0.0;
+}
+
 Octree lay_octree(const FreeSpace& space, const std::vector<Bounds>& regions) {
     Bounds all = space.box();
     for (const Bounds& b : regions)

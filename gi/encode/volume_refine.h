@@ -25,6 +25,8 @@ struct VolumeSample {
     float nearness = 1e9f;      // harmonic mean distance of what is seen, metres
     bool inside = false;        // of something solid
 };
+/// Root mean square over sides and hours, over exposure.
+double brightness(const VolumeSample& sample);
 using SampleVolume = std::function<VolumeSample(const Vec3& place, std::uint64_t key)>;
 
 /// Places of the finest lattice that cells were tested at.
