@@ -55,8 +55,10 @@ nlohmann::json describe(const LoadedScene& loaded) {
         out["animations"].push_back(
             {{"name", animation.name}, {"seconds", animation.duration}, {"channels", animation.channels.size()}});
     out["plan"] = nlohmann::json::array();
-    for (const PlanItem& item : plan_parts(facts))
-        out["plan"].push_back({{"part", item.part}, {"needed", item.done}, {"why", item.why}});
+    const std::vector<PlanItem> plan = plan_parts(facts), now = plan_of_this_version(plan);
+    for (std::size_t i = 0; i < plan.size(); ++i)
+        out["plan"].push_back(
+            {{"part", plan[i].part}, {"needed", plan[i].done}, {"baked", now[i].done}, {"why", now[i].why}});
     out["notes"] = scene.notes;
     return out;
 }
@@ -88,7 +90,7 @@ void print(const nlohmann::json& facts) {
         std::printf("  %-28s %s, %g s\n", "animation", animation["name"].get<std::string>().c_str(),
                     animation["seconds"].get<double>());
     for (const auto& item : facts["plan"])
-        std::printf("%s %-12s %s\n", item["needed"].get<bool>() ? "bake" : "skip",
+        std::printf("%s %-12s %s\n", item["baked"].get<bool>() ? "bake" : "skip",
                     item["part"].get<std::string>().c_str(), item["why"].get<std::string>().c_str());
     for (const auto& note : facts["notes"]) std::printf("note: %s\n", note.get<std::string>().c_str());
 }

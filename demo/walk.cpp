@@ -23,6 +23,7 @@ std::string light_file(const WalkOptions& options) {
     const std::filesystem::path beside = std::filesystem::path(options.scene.scene).replace_extension(".daylit");
     std::error_code ignored;
     if (std::filesystem::exists(beside, ignored)) return beside.string();
+    if (!std::filesystem::exists(options.scene.scene, ignored)) return {};  // that is told when it is opened
     std::fprintf(stderr, "no baked light at %s: indirect light is zero ('daylit bake %s' makes it)\n", beside.c_str(),
                  options.scene.scene.c_str());
     return {};

@@ -61,15 +61,9 @@ VolumeSettings volume_settings(const BakeSettings& settings) {
 
 std::vector<PlanItem> parts_of_this_version(const SceneFacts& facts, const std::vector<std::string>& asked) {
     for (const std::string& part : asked)
-        if (part != "lightmap" && part != "volume")
+        if (!bakes_part(part))
             throw Error("--parts", "'" + part + "' is not baked by this version; lightmap and volume are (or auto)");
-    std::vector<PlanItem> parts = plan_parts(facts, asked);
-    for (PlanItem& item : parts) {
-        if (item.part == "lightmap" || item.part == "volume" || !item.done) continue;
-        item.done = false;
-        item.why = "not baked by this version, though the scene has use for it (" + item.why + ")";
-    }
-    return parts;
+    return plan_of_this_version(plan_parts(facts, asked));
 }
 
 }  // namespace

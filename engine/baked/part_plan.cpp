@@ -56,4 +56,17 @@ std::vector<PlanItem> plan_parts(const SceneFacts& facts, std::span<const std::s
     return plan;
 }
 
+bool bakes_part(std::string_view part) {
+    return part == "lightmap" || part == "volume";
+}
+
+std::vector<PlanItem> plan_of_this_version(std::vector<PlanItem> plan) {
+    for (PlanItem& item : plan) {
+        if (bakes_part(item.part) || !item.done) continue;
+        item.done = false;
+        item.why = "not baked by this version, though the scene has use for it (" + item.why + ")";
+    }
+    return plan;
+}
+
 }  // namespace daylit

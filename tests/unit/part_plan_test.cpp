@@ -104,5 +104,19 @@ TEST(PartPlan, asking_overrides_all_but_the_impossible) {
     EXPECT_FALSE(needed(plan_parts(scene_facts(triangles(matt(), true)), lightmap), "lightmap"));
 }
 
+TEST(PartPlan, what_this_version_does_not_bake_is_left_out_and_said_to_be_missed) {
+    Material mirror = matt();
+    mirror.metallic = 1;
+    mirror.roughness = 0;
+    const auto plan = plan_parts(scene_facts(triangles(mirror, false))), now = plan_of_this_version(plan);
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+        EXPECT_EQ(now[i].done, plan[i].done && bakes_part(plan[i].part)) << plan[i].part;
+        const bool missed = plan[i].done && !now[i].done;
+        EXPECT_EQ(now[i].why.find("not baked by this version") != std::string::npos, missed) << now[i].why;
+    }
+    EXPECT_TRUE(needed(now, "lightmap"));
+    EXPECT_FALSE(needed(now, "caustics"));
+}
+
 }  // namespace
 }  // namespace daylit
