@@ -15,6 +15,10 @@ layout(binding = 7) uniform sampler2DArray sun_veils;
 const int kVeils = BLEND_CASTERS;
 #endif
 
+// Of the receiver's plane with the sun, as a cosine: over a texel a steeper plane would pass below what stands a metre above
+// it, and bumps on a wall that the sun grazes would catch its light through the vault.
+const float kLeastFacing = 0.07;
+
 struct SunReceiver {
     vec2 texel;     // in texels of the map
     float depth;    // metres
@@ -122,7 +126,7 @@ float sun_visibility(int sun, vec3 position, vec3 normal) {
     r.texel = (across - cascade.xy) / r.size + 0.5 * frame.counts.z;
     r.depth = frame.suns[sun].direction.w - dot(frame.suns[sun].direction.xyz, position);
     vec2 slope = vec2(dot(normal, frame.suns[sun].axis_x.xyz), dot(normal, frame.suns[sun].axis_y.xyz)) /
-                 max(facing, 0.02);
+                 max(facing, kLeastFacing);
     r.gradient = slope * r.size;
     float steepness = length(slope);
 
