@@ -10,6 +10,7 @@
 #include "engine/baked/integer_coding.h"
 #include "engine/baked/light_basis_bytes.h"
 #include "engine/baked/record_coding.h"
+#include "engine/baked/volume_sections.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 
@@ -175,6 +176,21 @@ TEST_F(BakedFile, VolumeRoundTrips) {
         EXPECT_EQ(read.volume->value_step, baked.volume->value_step);
         EXPECT_EQ(read.volume->change_step, baked.volume->change_step);
         EXPECT_GT(read.plan[1].bytes, 0u);
+    }
+}
+
+// Records were coded otherwise in files of before, under another name: not to be read as what they are not.
+TEST_F(BakedFile, RecordsOfBeforeAreRefusedByName) {
+    std::vector<CodedSection> sections = code_volume(small_volume());
+    write_sections(path(), sections);
+    EXPECT_EQ(read_volume(SectionFile(path())).values, small_volume().values);
+    sections.back().entry.name = {'V', 'O', 'R', 'E'};
+    write_sections(path(), sections);
+    try {
+        read_volume(SectionFile(path()));
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find(kRecordSection), std::string::npos) << error.what();
     }
 }
 
