@@ -35,7 +35,8 @@ class GlFrameMaker : public FrameMaker {
     GlFrameMaker() : context_(make_any_context()) {}
     std::string driver() const override { return context_->description(); }
 
-    Frames draw(const LevelAtRest& level, const Baked& baked, const std::vector<ViewAt>& views, Size size) override {
+    Frames draw(const LevelAtRest& level, const Baked& baked, const std::vector<ViewAt>& views, Size size,
+                bool timed) override {
         Renderer renderer(level.loaded.scene, &baked);
         renderer.set_pose(level.pose);
         Frames frames;
@@ -49,7 +50,7 @@ class GlFrameMaker : public FrameMaker {
             renderer.draw(frame_of(views[i], size));
             frames.radiance[i] = renderer.read_radiance();
         }
-        if (!views.empty()) frames.values = times(renderer, level, views.front(), size);
+        if (timed && !views.empty()) frames.values = times(renderer, level, views.front(), size);
         return frames;
     }
 

@@ -19,8 +19,9 @@ class FrameMaker {
     static std::unique_ptr<FrameMaker> open(std::string& why);
     virtual ~FrameMaker() = default;
     virtual std::string driver() const = 0;
-    /// Times are those of the first view.
-    virtual Frames draw(const LevelAtRest& level, const Baked& baked, const std::vector<ViewAt>& views, Size size) = 0;
+    /// timed   the first view is drawn over and over for its times; else there are none
+    virtual Frames draw(const LevelAtRest& level, const Baked& baked, const std::vector<ViewAt>& views, Size size,
+                        bool timed) = 0;
 };
 
 }  // namespace daylit

@@ -86,8 +86,10 @@ StudyResult compare_seen_frames(const BakeSettings& base, const Judges& judges, 
         const std::vector<Rgb> weights = rows.basis.weights(light.scales(hours[h], light.settings().clouds), hours[h]);
         const Baked whole =
             with_map(input, frame_lightmap(rows.shape, rows.light(), tilt_rows(rows), rows.row_of_pixel, weights));
-        const std::vector<Image> ours = judges.frames->draw(judges.level, compressed, views, judges.size).radiance;
-        const std::vector<Image> truth = judges.frames->draw(judges.level, whole, views, judges.size).radiance;
+        const auto drawn = [&](const Baked& baked) {
+            return judges.frames->draw(judges.level, baked, views, judges.size, false).radiance;
+        };
+        const std::vector<Image> ours = drawn(compressed), truth = drawn(whole);
         for (std::size_t i = 0; i < views.size(); ++i) run.pictures.push_back(judge(ours[i], truth[i], views[i]));
         if (progress && !progress(0.6 + 0.4 * double(h + 1) / double(hours.size()))) throw Interrupted();
     }

@@ -57,7 +57,7 @@ void judge_pictures(const ReportMethod& method, const Baked& baked, const Judges
                     const std::filesystem::path& folder, bool keep, RunResult& run) {
     std::vector<ViewAt> views;
     for (const PictureTruth& truth : judges.pictures) views.push_back(truth.at);
-    Frames frames = judges.frames->draw(judges.level, baked, views, judges.size);
+    Frames frames = judges.frames->draw(judges.level, baked, views, judges.size, true);
     run.values.merge(frames.values);
     for (std::size_t i = 0; i < views.size(); ++i) {
         JudgedPicture judged = judge(frames.radiance[i], judges.pictures[i]);
