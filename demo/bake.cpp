@@ -22,20 +22,12 @@ struct BakeOptions {
     SceneOptions scene;
     std::string output, export_glb, quality = "preview", parts = "auto", hours = "0-24", every = "5m";
     std::string directional = "auto";
-    double error = 0.0;
+    std::optional<double> error;
     int bounces = 64, threads = 0;
     std::uint64_t seed = 1;
     bool resume = false, keep_uv2 = false, json = false;
     VolumeSettings volume;
 };
-
-double error_of(const BakeOptions& options) {
-    if (options.error != 0.0) return parse_number("--error", std::to_string(options.error), 0.001, 1.0);
-    if (options.quality == "preview") return 0.10;
-    if (options.quality == "medium") return 0.03;
-    if (options.quality == "high") return 0.01;
-    throw UsageError("--quality", "'" + options.quality + "' is not one of preview, medium, high");
-}
 
 bool directional_of(const BakeOptions& options) {
     if (options.directional == "auto") return true;
@@ -111,7 +103,7 @@ void check(const VolumeSettings& volume) {
 BakeSettings settings_from(const BakeOptions& options) {
     BakeSettings settings;
     settings.directional = directional_of(options);
-    settings.error = error_of(options);
+    settings.error = target_error(options.quality, options.error);
     settings.parts = parts_of(options.parts);
     settings.seed = options.seed;
     settings.keep_uv2 = options.keep_uv2;
@@ -134,7 +126,10 @@ void run(const BakeOptions& options) {
                                              ? std::filesystem::path(options.scene.scene).replace_extension(".daylit")
                                              : std::filesystem::path(options.output);
     check_output(output.string(), {".daylit"});
-    if (!options.export_glb.empty()) check_output(options.export_glb, {".glb"});
+    if (!options.export_glb.empty()) {
+        check_output(options.export_glb, {".glb"});
+        check_apart(options.export_glb, {options.scene.scene});
+    }
     BakeSettings settings = settings_from(options);
     // Beside the result, so that it lies where there is room and is found again; no glTF or baked file has this name.
     settings.checkpoint = output;
@@ -196,7 +191,7 @@ void add_bake(CLI::App& app) {
     command->add_option("--bounces", options->bounces, "at most; ends when the rest no longer counts")
         ->group(group)
         ->capture_default_str();
-    command->add_option("--seed", options->seed, "of the random numbers")->group(group)->capture_default_str();
+    add_seed(*command, options->seed, "of the random numbers")->group(group);
     command->add_option("--threads", options->threads, "0: all cores")->group(group)->capture_default_str();
     command
         ->add_flag("--keep-uv2", options->keep_uv2,

@@ -124,7 +124,10 @@ void compare(const CompareOptions& options) {
     if (kind_a == Kind::Points && !options.output.empty()) {
         throw UsageError("-o", "a difference image is made of two images, not of points");
     }
-    if (!options.output.empty()) check_output(options.output, {".png", ".exr"});
+    if (!options.output.empty()) {
+        check_output(options.output, {".png", ".exr"});
+        check_apart(options.output, {options.a, options.b});
+    }
     const nlohmann::ordered_json measures =
         kind_a == Kind::Points ? compare_points(options) : compare_images(options, kind_a);
     if (options.json) {

@@ -77,11 +77,12 @@ struct Frame {
 /// Takes the day's pictures one after the other and hands each over.
 void photograph(const DayOptions& options, const std::vector<long>& times, const std::function<void(const Frame&)>& use) {
     const Layer layer = parse_layer(options.picture.view.show);
+    const double seconds = seconds_of(options.picture.view);
     Photographer photographer(options.picture);
     const Progress progress = make_progress("day");
     for (std::size_t i = 0; i < times.size(); ++i) {
         if (!progress(double(i) / double(times.size()))) throw Interrupted();
-        const Picture picture = photographer.take(double(times[i]) / 3600.0, options.picture.view.time);
+        const Picture picture = photographer.take(double(times[i]) / 3600.0, seconds);
         use({times[i], displayed(picture, layer), picture.ev});
     }
     progress(1.0);
@@ -129,9 +130,6 @@ nlohmann::ordered_json write_frames(const DayOptions& options, const std::vector
 }
 
 nlohmann::ordered_json write_film(const DayOptions& options, const std::vector<long>& times) {
-    if (!(options.frames_per_second >= 0.1 && options.frames_per_second <= 240)) {
-        throw Error("--fps", "give 0.1 to 240 frames a second");
-    }
     const std::filesystem::path ffmpeg = find_ffmpeg();
     const Size size = parse_size(options.picture.view.size);
     nlohmann::ordered_json frames = nlohmann::ordered_json::array();
@@ -147,6 +145,7 @@ nlohmann::ordered_json write_film(const DayOptions& options, const std::vector<l
 }
 
 void show_day(const DayOptions& options) {
+    check_range("--fps", options.frames_per_second, 0.1, 240);
     const Target target = target_of(options.output);
     if (target != Target::Folder) check_output(options.output, {".png", ".mp4"});
     const std::vector<long> times = seconds_of_day(options, target);

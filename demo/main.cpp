@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
+#include <vector>
 
 #include "demo/commands.h"
 #include "demo/progress.h"
@@ -34,6 +36,27 @@ void add_commands(CLI::App& app) {
     daylit::add_compare(app);
 }
 
+/// Empty text is no value of any option; without this it would count as the option left out.
+void refuse_empty_values(CLI::App& app) {
+    const auto problem = [](const std::string& text) {
+        return std::string(text.empty() ? "is given empty; give a value or leave it out" : "");
+    };
+    for (CLI::App* command : app.get_subcommands({}))
+        for (CLI::Option* option : command->get_options()) option->check(problem);
+}
+
+/// The word that stands where a command should, or none.
+std::string unknown_command(const CLI::App& app) {
+    const std::vector<std::string> rest = app.remaining();
+    return app.get_subcommands().empty() && !rest.empty() ? rest.front() : "";
+}
+
+std::string unknown_command_line(const CLI::App& app, const std::string& word) {
+    std::string names;
+    for (const CLI::App* command : app.get_subcommands({})) names += (names.empty() ? "" : ", ") + command->get_name();
+    return "'" + word + "' is no command; there are " + names;
+}
+
 int fail(int status, const char* message) {
     std::fprintf(stderr, "daylit: %s\n", message);
     return status;
@@ -51,6 +74,7 @@ int run(int argc, char** argv) {
     CLI::App app("daylit lights game levels through a whole day.", "daylit");
     app.require_subcommand(1);
     add_commands(app);
+    refuse_empty_values(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp& help) {
@@ -58,6 +82,8 @@ int run(int argc, char** argv) {
     } catch (const CLI::CallForAllHelp& help) {
         return app.exit(help);
     } catch (const CLI::ParseError& error) {
+        const std::string unknown = unknown_command(app);
+        if (!unknown.empty()) return fail(kWrongUsage, unknown_command_line(app, unknown).c_str());
         return fail(kWrongUsage, (std::string(error.what()) + " (see daylit --help)").c_str());
     }
     return 0;

@@ -24,6 +24,8 @@ void list_scenes() {
 }
 
 void make(const MakeOptions& options) {
+    if (options.list && !(options.name.empty() && options.output.empty()))
+        throw UsageError("--list", "goes alone; leave it out to make a scene");
     if (options.list) return list_scenes();
     if (options.name.empty()) throw UsageError("make", "give the NAME of a scene, or --list to see them");
     if (options.output.empty()) throw UsageError("make", "give -o FILE.glb, where to write the scene");

@@ -2,9 +2,11 @@
 
 #include <CLI/App.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "engine/base/error.h"
+#include "engine/base/vec.h"
 
 namespace daylit {
 namespace {
@@ -37,10 +39,11 @@ void apply_sun(LightSettings& light, const SceneOptions& options) {
             throw UsageError("--sun", "'" + *options.sun + "' is not one of day, scene, none");
     }
     if (options.sun_direction) {
-        const Vec3 direction = parse_vec3("--sun-direction", *options.sun_direction);
-        if (!(glm::length(direction) > 0)) throw Error("--sun-direction", "0,0,0 points nowhere");
+        if (options.sun)
+            throw UsageError("--sun-direction", "is a sun of its own; leave --sun " + *options.sun + " out");
         light.sun = SunSource::Given;
-        light.sun_direction = glm::normalize(direction);
+        light.sun_direction = unit_or(parse_vec3("--sun-direction", *options.sun_direction), Vec3(0.0f));
+        if (light.sun_direction == Vec3(0.0f)) throw Error("--sun-direction", "0,0,0 points nowhere");
     }
     if (options.sun_lux) {
         if (light.sun != SunSource::Given) {
@@ -65,10 +68,6 @@ void apply_sky(LightSettings& light, const std::string& sky) {
     } else {
         throw UsageError("--sky", "'" + sky + "' is not one of day, none, FILE.exr, FILE.hdr, r,g,b");
     }
-}
-
-void check_range(const char* option, double value, double min, double max) {
-    parse_number(option, std::to_string(value), min, max);
 }
 
 void check(const LightSettings& light) {
@@ -110,6 +109,9 @@ std::string node_names(const Scene& scene) {
     return list.empty() ? "no node has a name" : list;
 }
 
+constexpr double kMaxYaw = 36000;          // degrees: a hundred turns; a float still tells 1/100 of one
+constexpr double kMaxAnimationTime = 1e6;  // seconds, twelve days, of which a float tells 1/16
+
 NodeMove parse_move(const Scene& scene, const std::string& text) {
     const std::size_t equals = text.rfind('=');
     if (equals == std::string::npos) throw UsageError("--move", "'" + text + "' is not NODE=x,y,z[,yaw]");
@@ -118,10 +120,10 @@ NodeMove parse_move(const Scene& scene, const std::string& text) {
     NodeMove move;
     if (std::count(place.begin(), place.end(), ',') == 3) {
         const std::size_t comma = place.rfind(',');
-        move.yaw = float(parse_number("--move", place.substr(comma + 1)) * kDegree);
+        move.yaw = float(parse_number("--move", place.substr(comma + 1), -kMaxYaw, kMaxYaw) * kDegree);
         place.resize(comma);
     }
-    move.position = parse_vec3("--move", place);
+    move.position = parse_place("--move", place);
     const auto node =
         std::find_if(scene.nodes.begin(), scene.nodes.end(), [&](const Node& n) { return n.name == name; });
     if (node == scene.nodes.end()) {
@@ -177,7 +179,7 @@ void add_camera_options(CLI::App& app, ViewOptions& options) {
     app.add_option("--camera", options.camera, "camera of the scene, by node name")->group(group);
     app.add_option("--eye", options.eye, "x,y,z of a free camera")->group(group);
     app.add_option("--at", options.at, "x,y,z it looks at")->group(group);
-    app.add_option("--fov", options.fov, "its vertical field of view in degrees")->group(group)->capture_default_str();
+    app.add_option("--fov", options.fov, "its vertical field of view in degrees (default 60)")->group(group);
     app.add_option("--size", options.size, "WxH in pixels")->group(group)->capture_default_str();
 }
 
@@ -212,18 +214,56 @@ std::vector<NodeMove> parse_moves(const Scene& scene, const std::vector<std::str
     return parsed;
 }
 
+double seconds_of(const ViewOptions& options) {
+    check_range("--time", options.time, -kMaxAnimationTime, kMaxAnimationTime);
+    return options.time;
+}
+
+void require_part(Layer layer, const LoadedScene& loaded, const std::string& light_file) {
+    if (layer <= Layer::Depth) return;
+    const std::string part = name(layer);
+    if (!loaded.baked) throw UsageError("--show", "'" + part + "' is a part of a baked file; name one with --light");
+    const bool there =
+        (layer == Layer::Lightmap && loaded.baked->lightmap) || (layer == Layer::Volume && loaded.baked->volume);
+    if (!there) throw Error(light_file, "has no " + part + " to --show; daylit info says why");
+}
+
+double target_error(const std::string& quality, const std::optional<double>& error) {
+    if (error) {
+        check_range("--error", *error, 0.001, 1.0);
+        return *error;
+    }
+    if (quality == "preview") return 0.10;
+    if (quality == "medium") return 0.03;
+    if (quality == "high") return 0.01;
+    throw UsageError("--quality", "'" + quality + "' is not one of preview, medium, high");
+}
+
+CLI::Option* add_seed(CLI::App& app, std::uint64_t& seed, const char* about) {
+    const auto problem = [](const std::string& text) -> std::string {
+        std::uint64_t value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error == std::errc() && end == text.data() + text.size()) return {};
+        return "'" + text + "' is not a whole number of 0 to 18446744073709551615";
+    };
+    return app.add_option("--seed", seed, about)->check(problem)->capture_default_str();
+}
+
 View view_from_options(const ViewOptions& options, const Scene& scene, const Pose& pose) {
     const bool free_camera = !options.eye.empty() || !options.at.empty();
+    if (options.fov && !free_camera)
+        throw UsageError("--fov", "is that of the camera of --eye and --at; a scene's camera has its own");
     if (!options.camera.empty()) {
         if (free_camera) throw UsageError("--camera", "give either --camera or --eye and --at");
         return camera_view(scene, pose, options.camera);
     }
     if (free_camera) {
         if (options.eye.empty() || options.at.empty()) throw UsageError("--eye", "--eye and --at go together");
-        if (!(options.fov > 0.01 && options.fov < 179)) throw Error("--fov", "give 0.01 to 179 degrees");
-        const Vec3 eye = parse_vec3("--eye", options.eye), at = parse_vec3("--at", options.at);
+        const double fov = options.fov.value_or(60.0);
+        check_range("--fov", fov, 0.01, 179);
+        const Vec3 eye = parse_place("--eye", options.eye), at = parse_place("--at", options.at);
         if (eye == at) throw Error("--at", "is the same point as --eye");
-        return look_at(eye, at, float(options.fov * kDegree));
+        return look_at(eye, at, float(fov * kDegree));
     }
     if (!scene.cameras.empty()) return camera_view(scene, pose, scene.cameras.front().name);
     return overview(bounds(world_mesh(scene, pose, Part::All)));

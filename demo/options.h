@@ -1,5 +1,6 @@
 #pragma once
 // Options that several subcommands share, and how what is given, baked, in the scene and by default combine.
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -7,11 +8,13 @@
 #include "demo/parse.h"
 #include "engine/baked/baked_file.h"
 #include "engine/scene/gltf.h"
+#include "engine/scene/layer.h"
 #include "engine/scene/pose.h"
 #include "engine/scene/sky.h"
 
 namespace CLI {
 class App;
+class Option;
 }
 
 namespace daylit {
@@ -39,7 +42,7 @@ LoadedScene load(const SceneOptions& options, const std::string& light_file = {}
 /// Where the camera stands, when it is, how large the picture is.
 struct ViewOptions {
     std::string camera, eye, at;
-    double fov = 60.0;  // vertical, degrees
+    std::optional<double> fov;  // vertical, degrees, of the free camera
     std::string hour = "12";
     std::string size = "1280x720";
     std::string show = "final";
@@ -59,6 +62,14 @@ void add_volume_mode(CLI::App& app, std::string& mode);
 std::optional<double> parse_ev(const std::string& text);
 /// NODE=x,y,z[,yaw in degrees]; the error lists the nodes there are.
 std::vector<NodeMove> parse_moves(const Scene& scene, const std::vector<std::string>& moves);
+/// --time, checked.
+double seconds_of(const ViewOptions& options);
+/// throws when the layer is a part of a baked file and the scene came with none, or with one without that part.
+void require_part(Layer layer, const LoadedScene& loaded, const std::string& light_file);
+/// The relative error that --quality stands for, or the one given by --error instead.
+double target_error(const std::string& quality, const std::optional<double>& error);
+/// --seed; also refuses what is negative, which would be read as another number.
+CLI::Option* add_seed(CLI::App& app, std::uint64_t& seed, const char* about);
 /// --camera, else --eye/--at/--fov, else the first camera, else an overview of the scene.
 View view_from_options(const ViewOptions& options, const Scene& scene, const Pose& pose);
 

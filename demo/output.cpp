@@ -23,4 +23,12 @@ void check_output(const std::string& path, std::initializer_list<const char*> ex
     if (std::filesystem::is_directory(target)) throw Error(path, "is a folder");
 }
 
+void check_apart(const std::string& output, std::initializer_list<std::string> inputs) {
+    for (const std::string& input : inputs) {
+        std::error_code absent;
+        if (std::filesystem::equivalent(output, input, absent) && !absent)
+            throw Error(output, "is also what is read; write to another file");
+    }
+}
+
 }  // namespace daylit

@@ -7,6 +7,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/image.h"
+#include "engine/scene/gltf.h"
 
 namespace daylit {
 namespace {
@@ -72,6 +73,11 @@ double parse_number(const std::string& option, const std::string& text, double m
     return value;
 }
 
+void check_range(const std::string& option, double value, double min, double max) {
+    if (value >= min && value <= max) return;
+    throw Error(option, plain(value) + " is out of range; give " + plain(min) + " to " + plain(max));
+}
+
 double parse_hour(const std::string& option, const std::string& text) {
     const std::vector<std::string> parts = split(text, ':');
     double hour = 0;
@@ -84,7 +90,9 @@ double parse_hour(const std::string& option, const std::string& text) {
     } else {
         throw UsageError(option, "'" + text + "' is not an hour; give 7.5 or 07:30");
     }
-    if (hour < 0 || hour >= 24) throw Error(option, text + " is out of range; hours run from 0 to below 24");
+    // Minutes count on from the hour, so -0:30 would be half past midnight.
+    if (hour < 0 || hour >= 24 || text.front() == '-')
+        throw Error(option, text + " is out of range; hours run from 0 to below 24");
     return hour;
 }
 
@@ -107,10 +115,19 @@ Vec3 parse_vec3(const std::string& option, const std::string& text) {
     return {number(0), number(1), number(2)};
 }
 
+Vec3 parse_place(const std::string& option, const std::string& text) {
+    const Vec3 place = parse_vec3(option, text);
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(std::abs(place[axis]) <= kMaxCoordinate))
+            throw Error(option, text + " lies more than 1e8 m from the origin");
+    return place;
+}
+
 Rgb parse_rgb(const std::string& option, const std::string& text) {
     const bool grey = text.find(',') == std::string::npos;
-    const Rgb rgb = grey ? Rgb(float(parse_number(option, text, 0, 1e12))) : parse_vec3(option, text);
-    if (rgb.r < 0 || rgb.g < 0 || rgb.b < 0) throw Error(option, text + ": light is never negative");
+    const Rgb rgb = grey ? Rgb(float(parse_number(option, text))) : parse_vec3(option, text);
+    for (int c = 0; c < 3; ++c)
+        if (!(rgb[c] >= 0.0f && rgb[c] <= 1e12f)) throw Error(option, text + " is out of range; light is 0 to 1e+12");
     return rgb;
 }
 

@@ -16,6 +16,12 @@ std::unique_ptr<GlContext> open_context(const std::string& name) {
     return name == "any" ? make_any_context() : make_context(parse_context_kind(name));
 }
 
+LoadedScene load_for(Layer layer, const PictureOptions& options) {
+    LoadedScene loaded = load(options.scene, options.light);
+    require_part(layer, loaded, options.light);
+    return loaded;
+}
+
 /// Medians of each pass' time over several reports of the same frame.
 FrameReport with_median_times(std::vector<FrameReport> reports) {
     FrameReport result = reports.back();
@@ -55,7 +61,7 @@ struct Photographer::State {
           volume_mode(parse_volume_mode(o.volume_mode)),
           ev(parse_ev(o.view.ev)),
           size(parse_size(o.view.size)),
-          loaded(load(o.scene, o.light)),
+          loaded(load_for(layer, o)),
           moves(parse_moves(loaded.scene, o.view.moves)),
           coming_light(std::async(
               std::launch::async,

@@ -44,7 +44,6 @@ std::vector<Rgb> by_reference(const PointsOptions& options, const TracedScene& s
 
 std::vector<Rgb> by_lightmap(const PointsOptions& options, const TracedScene& scene,
                              const std::vector<SurfaceSample>& points) {
-    if (!scene.loaded.baked) throw UsageError("--method", "lightmap reads a baked file; name it with --light");
     if (!scene.loaded.baked->lightmap) throw Error(options.light, "has no lightmap; daylit info says why");
     return lightmap_irradiance(*scene.loaded.baked->lightmap, scene.loaded.scene, scene.lighting.scales, scene.hour,
                                points);
@@ -52,7 +51,6 @@ std::vector<Rgb> by_lightmap(const PointsOptions& options, const TracedScene& sc
 
 std::vector<Rgb> by_volume(const PointsOptions& options, const TracedScene& scene,
                            const std::vector<SurfaceSample>& points) {
-    if (!scene.loaded.baked) throw UsageError("--method", "volume reads a baked file; name it with --light");
     if (!scene.loaded.baked->volume) throw Error(options.light, "has no volume; daylit info says why");
     const IrradianceVolume& volume = *scene.loaded.baked->volume;
     const VolumeLight light(volume, volume.basis.weights(scene.lighting.scales, scene.hour));
@@ -67,13 +65,14 @@ std::vector<Rgb> by_volume(const PointsOptions& options, const TracedScene& scen
 std::vector<Rgb> evaluate(const PointsOptions& options, const TracedScene& scene,
                           const std::vector<SurfaceSample>& points) {
     if (options.method == "reference") return by_reference(options, scene, points);
+    for (const char* part : {"lightmap", "volume", "dirmap", "antiradiance"})
+        if (options.method == part && !scene.loaded.baked)
+            throw UsageError("--method", options.method + " reads a baked file; name it with --light");
     if (options.method == "lightmap") return by_lightmap(options, scene, points);
     if (options.method == "volume") return by_volume(options, scene, points);
     for (const char* part : {"dirmap", "antiradiance"})
         if (options.method == part)
-            throw Error(options.light.empty() ? std::string("--method") : options.light,
-                        options.light.empty() ? options.method + " reads a baked file; name it with --light"
-                                              : "has no " + options.method + "; daylit info lists what it has");
+            throw Error(options.light, "has no " + options.method + "; daylit info lists what it has");
     if (options.method == "photons") throw Error("--method", "this build of daylit has no photon map");
     throw UsageError("--method", "'" + options.method +
                                      "' is not one of lightmap, volume, dirmap, antiradiance, photons, reference");
@@ -126,7 +125,7 @@ void add_points(CLI::App& app) {
                         "reachable from the cameras, or from "
                         "the open sky in a scene without any)");
     command->add_option("--count", options->count, "points to draw")->capture_default_str();
-    command->add_option("--seed", options->seed, "of the random numbers")->capture_default_str();
+    add_seed(*command, options->seed, "of the random numbers");
     command->add_option("--in", options->input, "CSV of points to evaluate");
     command->add_option("--hour", options->hour, "H or HH:MM, local clock")->capture_default_str();
     command->add_option("--method", options->method, "lightmap | volume | dirmap | antiradiance | photons | reference");

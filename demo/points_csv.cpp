@@ -1,18 +1,24 @@
 #include "demo/points_csv.h"
 
+#include <algorithm>
+
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/point_rows.h"
+#include "engine/base/vec.h"
+#include "engine/scene/gltf.h"
 
 namespace daylit {
 
 std::vector<SurfaceSample> read_points(const std::filesystem::path& path) {
     std::vector<SurfaceSample> points;
     for (const PointRow& row : read_point_rows(path).rows) {
-        if (!(glm::length(row.normal) > 0.0f)) {
-            throw Error(path.string(), "point " + std::to_string(points.size() + 1) + " has a normal of no length");
-        }
-        points.push_back({row.position, glm::normalize(row.normal)});
+        const std::string place = "point " + std::to_string(points.size() + 1);
+        const Vec3 normal = unit_or(row.normal, Vec3(0.0f)), distance = glm::abs(row.position);
+        if (normal == Vec3(0.0f)) throw Error(path.string(), place + " has a normal of no length");
+        if (std::max({distance.x, distance.y, distance.z}) > kMaxCoordinate)
+            throw Error(path.string(), place + " lies more than 1e8 m from the origin");
+        points.push_back({row.position, normal});
     }
     return points;
 }

@@ -20,7 +20,7 @@ struct ReferenceOptions {
     ViewOptions view;
     std::string output, light;
     int spp = 64, bounces = 1000, threads = 0;
-    double error = 0.0;
+    std::optional<double> error;
     std::uint64_t seed = 1;
     bool json = false;
 };
@@ -38,14 +38,13 @@ std::string command_line(const CLI::App& app) {
 
 PathTraceSettings settings_from(const ReferenceOptions& options) {
     if (options.spp < 1 || options.spp > 1 << 20) throw Error("--spp", "give 1 to 1048576 samples per pixel");
-    if (options.error != 0.0 && !(options.error >= 1e-5 && options.error <= 1.0))
-        throw Error("--error", "give a relative standard error of 0.00001 to 1");
+    if (options.error) check_range("--error", *options.error, 1e-5, 1.0);
     if (options.bounces < 0 || options.bounces > 100000) throw Error("--bounces", "give 0 to 100000");
     const Layer layer = parse_layer(options.view.show);
     if (layer > Layer::Depth)
         throw Error("--show", "'" + options.view.show + "' is a part of a baked file, which only shot can show");
     return {.spp = options.spp,
-            .error = options.error,
+            .error = options.error.value_or(0.0),
             .max_bounces = options.bounces,
             .seed = options.seed,
             .layer = layer};
@@ -84,11 +83,13 @@ std::string header(const std::string& command, const PathTraceImage& picture) {
 
 void run(const ReferenceOptions& options, const std::string& command) {
     check_output(options.output, {".exr", ".png"});
+    check_apart(options.output, {options.scene.sky.value_or("")});
     const Size size = parse_size(options.view.size);
     const PathTraceSettings settings = settings_from(options);
     parse_ev(options.view.ev);
     const ThreadLimit threads(options.threads);
-    const TracedScene scene(options.scene, options.light, options.view.hour, options.view.moves, options.view.time);
+    const TracedScene scene(options.scene, options.light, options.view.hour, options.view.moves,
+                            seconds_of(options.view));
     const View view = view_from_options(options.view, scene.loaded.scene, scene.pose);
 
     const auto start = std::chrono::steady_clock::now();
@@ -114,7 +115,7 @@ void add_reference(CLI::App& app) {
         ->capture_default_str();
     command->add_option("--error", options->error, "go on until the RMS standard error over the mean is below this");
     command->add_option("--bounces", options->bounces, "segments past the first surface")->capture_default_str();
-    command->add_option("--seed", options->seed, "of the random numbers")->capture_default_str();
+    add_seed(*command, options->seed, "of the random numbers");
     command->add_option("--threads", options->threads, "0: all cores")->capture_default_str();
     command->add_flag("--json", options->json, "spp, error, mean, seconds and rays per second on stdout");
     command->callback([options, command] { run(*options, command_line(*command)); });

@@ -23,7 +23,7 @@ struct ReportOptions {
     SceneOptions scene;
     ViewOptions view;
     std::string output, methods = "all", hours, picture_hours, every = "5m", quality = "medium";
-    double error = 0.0;
+    std::optional<double> error;
     int points = 500, spp = 4096, picture_spp = 256, threads = 0;
     std::uint64_t seed = 1;
     bool quick = false, json = false;
@@ -46,18 +46,10 @@ void apply_quick(const CLI::App& command, ReportOptions& options) {
     unless_given("--spp", options.spp, 256);
     unless_given("--picture-spp", options.picture_spp, 16);
     unless_given("--size", options.view.size, "160x90");
-    if (options.error == 0.0) unless_given("--quality", options.quality, "preview");
+    if (!options.error) unless_given("--quality", options.quality, "preview");
     unless_given("--every", options.every, "1h");
     if (options.hours.empty()) options.hours = options.quick ? "10,12" : "6,9,12,15,18,21";
     if (options.picture_hours.empty()) options.picture_hours = options.quick ? "12" : "9,12,18";
-}
-
-double error_of(const ReportOptions& options) {
-    if (options.error != 0.0) return parse_number("--error", std::to_string(options.error), 0.001, 1.0);
-    if (options.quality == "preview") return 0.10;
-    if (options.quality == "medium") return 0.03;
-    if (options.quality == "high") return 0.01;
-    throw UsageError("--quality", "'" + options.quality + "' is not one of preview, medium, high");
 }
 
 void check_counts(const ReportOptions& options) {
@@ -69,7 +61,7 @@ void check_counts(const ReportOptions& options) {
 BakeSettings base_settings(const ReportOptions& options, const LoadedScene& loaded, const std::vector<double>& hours) {
     BakeSettings base;
     base.light = loaded.light, base.unit = loaded.unit, base.lambert = loaded.lambert;
-    base.error = error_of(options);
+    base.error = target_error(options.quality, options.error);
     base.every_hours = parse_duration_hours("--every", options.every);
     if (!(base.every_hours >= 1.0 / 60.0)) throw Error("--every", "give a minute or more");
     base.seed = options.seed;
@@ -79,7 +71,7 @@ BakeSettings base_settings(const ReportOptions& options, const LoadedScene& load
 
 std::vector<ViewAt> views_of(const ReportOptions& options, const LevelAtRest& level, const std::vector<double>& hours) {
     std::vector<std::pair<std::string, View>> cameras;
-    if (options.view.camera.empty() && options.view.eye.empty() && options.view.at.empty())
+    if (options.view.camera.empty() && options.view.eye.empty() && options.view.at.empty() && !options.view.fov)
         for (const Camera& camera : level.loaded.scene.cameras)
             cameras.emplace_back(camera.name, camera_view(level.loaded.scene, level.pose, camera.name));
     if (cameras.empty())
@@ -111,7 +103,8 @@ nlohmann::json key_of(const ReportOptions& options, const BakeSettings& base, co
           light.sun_direction.z, light.sun_illuminance.x, light.sun_illuminance.y, light.sun_illuminance.z,
           light.sky_radiance.x, light.sky_radiance.y, light.sky_radiance.z, file_hash(light.sky_file)}},
         {"scene options", {level.loaded.unit, level.loaded.lambert}},
-        {"view", {options.view.camera, options.view.eye, options.view.at, options.view.fov, options.view.size}},
+        {"view",
+         {options.view.camera, options.view.eye, options.view.at, options.view.fov.value_or(0.0), options.view.size}},
         {"counts", {options.points, options.spp, options.picture_spp, options.threads, options.seed, options.quick}},
         {"hours", {options.hours, options.picture_hours, options.every, base.error}}};
 }
@@ -387,7 +380,7 @@ void add_report(CLI::App& app) {
     command->add_option("--every", options->every, "time between keyframes of the bakes")
         ->group(group)
         ->capture_default_str();
-    command->add_option("--seed", options->seed, "of points and bakes")->group(group)->capture_default_str();
+    add_seed(*command, options->seed, "of points and bakes")->group(group);
     command->add_option("--threads", options->threads, "0: all cores")->group(group)->capture_default_str();
     command->add_flag("--json", options->json, "report.json on stdout too")->group(group);
     command->callback([options, command] { run(*command, *options); });

@@ -59,12 +59,13 @@ constexpr int kMeasuredSamplesPerSide = 4;  // of .exr, which is made to be comp
 void shoot(const ShotOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     check_output(options.output, {".png", ".exr"});
+    check_apart(options.output, {options.picture.scene.sky.value_or("")});
     PictureOptions how = options.picture;
     if (!how.samples_per_side && std::filesystem::path(options.output).extension() == ".exr")
         how.samples_per_side = kMeasuredSamplesPerSide;
     const double hour = parse_hour("--hour", options.picture.view.hour);
     Photographer photographer(how);
-    const Picture picture = photographer.take(hour, options.picture.view.time);
+    const Picture picture = photographer.take(hour, seconds_of(options.picture.view));
     write_picture(options.output, picture, parse_layer(options.picture.view.show));
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     if (options.json) print_json(options, photographer, picture, spent.count());

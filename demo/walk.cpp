@@ -45,12 +45,14 @@ void walk(const WalkOptions& options) {
     state.volume_view = state.show == Layer::Volume;
     state.volume_mode = parse_volume_mode(options.volume_mode);
     start.size = parse_size(options.view.size);
-    start.seconds = options.view.time;
+    start.seconds = seconds_of(options.view);
     if (const std::optional<double> ev = parse_ev(options.view.ev)) {
         state.auto_exposure = false;
         state.ev = float(*ev);
     }
-    const LoadedScene loaded = load(options.scene, light_file(options));
+    const std::string light = light_file(options);
+    const LoadedScene loaded = load(options.scene, light);
+    require_part(state.show, loaded, light);
     start.moves = parse_moves(loaded.scene, options.view.moves);
     const Pose pose = pose_scene(loaded.scene, start.seconds, start.moves);
     state.light = loaded.light;

@@ -6,6 +6,10 @@
 
 namespace daylit {
 
+/// Metres from the origin, along any axis, beyond which nothing may lie: float positions are 8 m apart there, and
+/// squared areas leave a float's range.
+inline constexpr float kMaxCoordinate = 1.0e8f;
+
 struct LoadOptions {
     double unit = 0.0;     // metres per file unit; 0: extras.daylit.unit, else 1
     bool lambert = false;  // --materials lambert: base colour and emission only

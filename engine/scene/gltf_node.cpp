@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/scene/gltf.h"
 #include "engine/scene/gltf_file.h"
 #include "engine/scene/pose.h"
 
@@ -12,8 +13,6 @@ using tinygltf::Value;
 
 // World meshes hold about 100 bytes a vertex; a few lines of JSON can place one mesh any number of times.
 constexpr std::uint64_t kMaxPlacedVertices = std::uint64_t(1) << 26;
-// Beyond this, float positions are 8 m apart and squared areas leave a float's range.
-constexpr float kMaxCoordinate = 1.0e8f;
 
 int default_scene(const File& file) {
     if (file.model.defaultScene != -1) {

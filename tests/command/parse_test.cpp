@@ -15,7 +15,7 @@ TEST(ParseHour, TakesDecimalsAndClockTimes) {
 }
 
 TEST(ParseHour, RefusesWhatIsNoHourOfTheDay) {
-    for (const char* out_of_range : {"24", "-0.1", "24:00", "12:60", "1e300"}) {
+    for (const char* out_of_range : {"24", "-0.1", "24:00", "12:60", "1e300", "-0:30"}) {
         try {
             parse_hour("--hour", out_of_range);
             ADD_FAILURE() << out_of_range << " was taken";
@@ -59,6 +59,12 @@ TEST(ParseVectors, NumbersOnly) {
     EXPECT_THROW(parse_vec3("--eye", "1,2"), UsageError);
     EXPECT_THROW(parse_vec3("--eye", "1,2,inf"), Error);
     EXPECT_THROW(parse_rgb("--sun-lux", "1,-1,1"), Error);
+    EXPECT_THROW(parse_rgb("--sun-lux", "1,1e13,1"), Error);
+}
+
+TEST(ParsePlace, WhereASceneCanReach) {
+    EXPECT_EQ(parse_place("--eye", "1e8,0,-1e8"), Vec3(1e8f, 0, -1e8f));
+    for (const char* far : {"1.1e8,0,0", "0,-1e30,0", "0,0,nan"}) EXPECT_THROW(parse_place("--eye", far), Error) << far;
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ def glb(document, binary=b"", length=None):
 def triangle(positions=(0, 0, 0, 1, 0, 0, 0, 1, 0), **accessor):
     binary = struct.pack("<9f", *positions)
     document = {
-        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "name": "thing"}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
         "buffers": [{"byteLength": len(binary)}], "bufferViews": [{"buffer": 0, "byteLength": len(binary)}],
         "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
@@ -140,8 +140,42 @@ expect(2, "--context", *shot, "--context", "vulkan")
 expect(2, "--sky", *shot, "--sky", "green")
 expect(2, "--volume-mode", *shot, "--volume-mode", "texel")
 expect(2, "--nonsense", *shot, "--nonsense")
-expect(2, "", "frobnicate")
+expect(2, "'frobnicate'", "frobnicate")
+expect(2, "'frobnicate'", "frobnicate", "--help-me")
 expect(2, "")
+for option in ("--camera", "--light", "--latitude", "--samples", "--time", "--sky", "--move"):
+    expect(2, option, *shot, option, "")
+free = ("--eye", "0,0,3", "--at", "0,0,0")
+expect(2, "--fov", *shot, "--fov", "40")
+expect(2, "--fov", *shot, "--camera", "view", "--fov", "40")
+for fov in ("0", "nan", "180"):
+    expect(1, "--fov", *shot, *free, "--fov", fov)
+expect(1, "--eye", *shot, "--eye", "1e9,0,0", "--at", "0,0,0")
+expect(1, "--at", *shot, "--eye", "0,0,3", "--at", "0,-1e30,0")
+for place in ("1e30,0,0", "0,-2e8,0", "0,nan,0", "inf,0,0", "0,0,0,1e300", "0,0,0,nan"):
+    expect(1, "--move", *shot, "--move", f"thing={place}")
+for time in ("nan", "inf", "1e300", "-1e7"):
+    expect(1, "--time", *shot, "--time", time)
+expect(1, "--hour", *shot, "--hour", "-0:30")
+expect(1, "--sky", *shot, "--sky", "1e30,0,0")
+expect(1, "--latitude: 1e+300", *shot, "--latitude", "1e300")
+expect(1, "--unit: 1e-07", *shot, "--unit", "1e-7")
+expect(2, "--sun-direction", *shot, "--sun-direction", "0,1,0", "--sun", "scene")
+for part in ("lightmap", "volume", "dirmap", "antiradiance", "caustics"):
+    expect(2, "--light", *shot, "--show", part)
+for fps in ("0", "-1", "nan", "1e9"):
+    expect(1, "--fps", "day", good, "-o", out, "--size", "32x24", "--fps", fps)
+expect(2, "--list", "make", "--list", "furnace", "-o", out)
+picture = write("picture.exr", b"")  # what is read is not written over, whatever is in it
+expect(1, "picture.exr", "compare", picture, picture, "-o", picture, output=picture)
+expect(1, "picture.exr", "shot", good, "--sky", picture, "-o", picture, output=picture)
+expect(1, "picture.exr", "reference", good, "--sky", picture, "-o", picture, output=picture)
+expect(1, "good.glb", "bake", good, "-o", work / "x.daylit", "--export-glb", good, output=good)
+for error in ("0", "-1", "nan", "2"):
+    expect(1, "--error", "reference", good, "-o", work / "ref.exr", "--error", error, output=work / "ref.exr")
+    expect(1, "--error", "bake", good, "-o", work / "x.daylit", "--error", error, output=work / "x.daylit")
+for seed in ("-1", "1.5", "99999999999999999999"):
+    expect(2, "--seed", "reference", good, "-o", work / "ref.exr", "--seed", seed, output=work / "ref.exr")
 expect(1, "absent/out.png", "shot", good, "-o", work / "absent" / "out.png", "--size", "32x24")
 expect(1, "out.xyz", "shot", good, "-o", work / "out.xyz", "--size", "32x24")
 expect(1, "absent/ref.exr", "reference", good, "-o", work / "absent" / "ref.exr", "--size", "8x8", "--spp", "1")
@@ -157,6 +191,11 @@ expect(1, "absent.exr", "compare", work / "absent.exr", good)
 expect(1, "text.exr", "compare", work / "text.exr", work / "text.exr")
 expect(1, "text.csv", "compare", work / "text.csv", work / "text.csv")
 expect(1, "text.csv", "points", good, "--in", work / "text.csv", "--method", "reference", "-o", work / "p.csv")
+for position, normal, what in (("0,1e30,0", "0,1,0", "point 1"), ("0,0,0", "0,0,0", "point 1"), ("0,nan,0", "0,1,0", "line 2")):
+    far = write("far.csv", f"x,y,z,nx,ny,nz\n{position},{normal}\n".encode())
+    expect(1, what, "points", good, "--in", far, "--method", "reference", "-o", work / "p.csv")
+for part in ("lightmap", "volume", "dirmap", "antiradiance"):
+    expect(2, "--light", "points", good, "--in", write("one.csv", b"0,1,0,0,1,0\n"), "--method", part, "-o", work / "p.csv")
 expect(1, "nowhere", "make", "nowhere", "-o", work / "nowhere.glb")
 expect(1, "absent/x.glb", "make", "furnace", "-o", work / "absent" / "x.glb")
 
