@@ -18,6 +18,11 @@ import time
 WIDTH, HEIGHT = 720, 420
 PANEL = 304  # pixels at the left that the panel covers
 PATIENCE = 60.0  # seconds
+SHADERS = pathlib.Path(__file__).parents[2] / "shaders"
+# Centres of the panel's rows, in pixels from the top; its font and paddings are Dear ImGui's own, the same everywhere.
+ROW = {"hour": 17, "play": 40, "layer": 84, "exposure": 107, "clouds": 130, "place": 176, "cameras": 199, "passes": 222}
+STEP, LINE = 23, 17  # from one control to the next, from one line of a list to the next
+LEFT, RIGHT = 14, 192  # ends of a slider
 
 
 # ---- a level: grass, a red box 5 m ahead, a wall behind it, a blue wheel that turns ------------------------------
@@ -65,18 +70,24 @@ def write_level(path):
                      "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}]}))
 
 
+def copy_shaders(folder):
+    """Shaders of our own, to change while walking: DAYLIT_SHADER_DIR names what holds them."""
+    shutil.copytree(SHADERS, folder / "live" / "shaders")
+    return folder / "live" / "shaders" / "tonemap.frag"
+
+
 # ---- the screen --------------------------------------------------------------------------------------------------
 
-def screen():
-    """Rows of (b, g, r, x) bytes of the window's area right of the panel."""
+def screen(left=PANEL, right=WIDTH):
+    """Rows of (b, g, r, x) bytes of the window; right of the panel unless told otherwise."""
     raw = pathlib.Path(os.environ["DAYLIT_TEST_SCREEN"]).read_bytes()
     header = struct.unpack(">25I", raw[:100])
     start, stride = header[0] + 12 * header[19], header[12]
-    return [raw[start + y * stride + 4 * PANEL:start + y * stride + 4 * WIDTH] for y in range(HEIGHT)]
+    return [raw[start + y * stride + 4 * left:start + y * stride + 4 * right] for y in range(HEIGHT)]
 
 
-def brightness(picture):
-    return sum(sum(row[1::4]) for row in picture) / sum(len(row) // 4 for row in picture)
+def brightness(picture, channel=1):
+    return sum(sum(row[channel::4]) for row in picture) / sum(len(row) // 4 for row in picture)
 
 
 def red_share(picture):
@@ -116,7 +127,8 @@ class Walk:
         self.out = open(folder / "walk.out", "w+")
         self.process = subprocess.Popen(
             [daylit, "walk", "level.gltf", "--size", f"{WIDTH}x{HEIGHT}", "--hour", "12", "--ev", "13.5", *options],
-            cwd=folder, stdout=self.out, stderr=subprocess.STDOUT)
+            cwd=folder, stdout=self.out, stderr=subprocess.STDOUT,
+            env=os.environ | {"DAYLIT_SHADER_DIR": str(folder / "live")})
         self.window = until("the window", self.find)
         xdotool("mousemove", WIDTH - 40, HEIGHT - 40)
         until("the first picture", lambda: brightness(screen()) > 20)
@@ -131,6 +143,10 @@ class Walk:
     def title(self):
         return xdotool("getwindowname", self.window)
 
+    def hour(self):
+        hours, minutes = self.title().split(" ")[1].split(":")
+        return int(hours) + int(minutes) / 60
+
     def output(self):
         self.out.seek(0)
         return self.out.read()
@@ -141,6 +157,12 @@ class Walk:
         xdotool("key", "b")
         until("B to print the place", lambda: self.output().count("\nplace ") > before)
         return self.output().rsplit("\nplace ", 1)[1].split(": ", 1)[1].strip()
+
+    def click(self, x, y):
+        """On the panel: button and pointer stay until a frame has seen them; then the pointer goes where it hides nothing."""
+        for action in (("mousemove", x, y, "mousedown", 1), ("mouseup", 1), ("mousemove", WIDTH - 40, HEIGHT - 40)):
+            xdotool(*action)
+            self.place(), self.place()
 
     def still(self):
         """The picture once the camera rests: asked for twice, so that the frame of the first answer is on the screen."""
@@ -170,11 +192,129 @@ def png_size(path):
     return struct.unpack(">2I", path.read_bytes()[16:24])
 
 
+def check_shaders(walk, shader):
+    plain, source = walk.still(), shader.read_text()
+    body = source.rstrip().removesuffix("}")
+    shader.write_text(body + "    out_display.g = 0.0;\n}\n")
+    xdotool("key", "r")
+    until("a picture without green", lambda: brightness(screen()) < 0.05 * brightness(plain))
+    changed = walk.still()
+    check(brightness(changed, 2) > 0.9 * brightness(plain, 2), "R draws with the shader that was changed, red as before")
+
+    shader.write_text(body + "    out_display.g = no_such_thing;\n}\n")
+    place = f"tonemap.frag:{body.count(chr(10)) + 1}:"
+    xdotool("key", "r")
+    until(f"the error at {place}", lambda: place in walk.output())
+    check(walk.still() == changed, f"a broken shader is told by file and line ({place}), the one before goes on")
+    shader.write_text(source)
+    xdotool("key", "r")
+    until("the picture of the first shader", lambda: screen() == plain)
+    check(True, "mended, it draws the first picture again")
+
+
+# ---- the panel -----------------------------------------------------------------------------------------------------
+
+def panel_reaches_down():
+    """An open list makes the panel so long that it darkens the sunlit grass there."""
+    under, beside = (screen(*sides)[HEIGHT - 50:HEIGHT - 20] for sides in ((20, PANEL - 20), (PANEL + 20, WIDTH - 80)))
+    return brightness(under) < 0.8 * brightness(beside)
+
+
+def unfold(walk, row):
+    walk.click(100, row)
+    until("the panel to grow", panel_reaches_down)
+
+
+def fold(walk, row):
+    walk.click(100, row)
+    until("the panel to shrink", lambda: not panel_reaches_down())
+
+
+def check_layers(walk, noon):
+    def choose(line):
+        walk.click(100, ROW["layer"])
+        walk.click(60, ROW["layer"] + 18 + line * LINE + LINE // 2)
+    choose(5)
+    until("the layer of normals", lambda: red_share(screen()) == 0 and screen() != noon)
+    choose(0)
+    until("the final picture", lambda: screen() == noon)
+    check(True, "the list of layers shows normals and the final picture again")
+
+
+def check_weather(walk, noon):
+    walk.click(RIGHT, ROW["clouds"])
+    until("clouds before the sun", lambda: brightness(screen()) < 0.8 * brightness(noon))
+    walk.click(LEFT, ROW["clouds"])
+    until("a clear sky", lambda: brightness(screen()) > 0.9 * brightness(noon))
+    check(True, "the slider of clouds dims the level, and clears up")
+
+
+def check_exposure(walk, noon):
+    walk.click(130, ROW["exposure"])
+    until("an overexposed picture", lambda: brightness(screen()) > 1.3 * brightness(noon))
+    walk.click(17, ROW["exposure"])
+    until("the eye to get used to it", lambda: brightness(screen()) < 1.3 * brightness(noon))
+    check(True, "the slider of exposure overexposes, the automatic one finds back")
+
+
+def check_place(walk):
+    day = brightness(screen())
+    unfold(walk, ROW["place"])
+    latitude = ROW["place"] + STEP
+    walk.click(LEFT, latitude)
+    until("night at the south pole in June", lambda: brightness(screen()) < 0.2 * day)
+    walk.click(RIGHT, latitude + 4 * STEP)
+    until("day there in December", lambda: brightness(screen()) > 0.5 * day)
+    check(True, "latitude and month make polar night and polar day")
+
+
+def check_lists(walk):
+    here = walk.place()
+    unfold(walk, ROW["cameras"])
+    walk.click(60, ROW["cameras"] + 2 * STEP + LINE - 3)
+    until("the second camera of the list", lambda: walk.place() != here)
+    fold(walk, ROW["cameras"])
+    check(True, "the list of cameras goes to its second")
+    unfold(walk, ROW["passes"])
+    fold(walk, ROW["passes"])
+    check(True, "the passes' times open and close")
+
+
+def check_clock(walk):
+    def hours_a_second(at_least):
+        before, start = walk.hour(), time.monotonic()
+        until("time to pass", lambda: (walk.hour() - before) % 24 > at_least)
+        return (walk.hour() - before) % 24 / (time.monotonic() - start)
+    walk.click(78, ROW["play"])
+    walk.click(38, ROW["play"])
+    slow = hours_a_second(0)
+    walk.click(270, ROW["play"])
+    fast = hours_a_second(2)
+    check(fast > 10 * slow, f"the day goes by at the slider's speed ({slow:.2f} and {fast:.1f} hours a second)")
+    walk.click(38, ROW["play"])
+    until("the day to stand still", lambda: walk.place() and walk.hour() == (walk.place() and walk.hour()))
+    check(True, "the button stops it")
+
+
+def check_panel(daylit, folder):
+    walk = Walk(daylit, folder)
+    noon = walk.still()
+    check_layers(walk, noon)
+    check_weather(walk, noon)
+    check_exposure(walk, noon)
+    check_lists(walk)
+    check_place(walk)
+    check_clock(walk)
+    xdotool("key", "Escape")
+    check(walk.ends() == 0, "the walk of the panel ends with status 0")
+
+
 def main():
     daylit, folder = sys.argv[1], pathlib.Path(sys.argv[2])
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     write_level(folder / "level.gltf")
+    shader = copy_shaders(folder)
 
     walk = Walk(daylit, folder)
     first = walk.still()
@@ -221,6 +361,7 @@ def main():
     until("its path", lambda: str(saved[0]) in walk.output())
     check(png_size(saved[0]) == (WIDTH, HEIGHT), f"F12 saves {saved[0].name}")
 
+    check_shaders(walk, shader)
     noon = brightness(turned)
     xdotool("mousemove", 150, 15, "mousedown", 1)
     xdotool("mousemove", 60, 15)
@@ -240,7 +381,6 @@ def main():
     walk.still()
     check(walk.title() == paused, "P lets the day go by and stops it")
 
-    xdotool("key", "r")
     xdotool("windowsize", "--sync", walk.window, WIDTH + 80, HEIGHT + 40)
     xdotool("key", "F12")
     until("a picture of the new size", lambda: [p for p in picture_files(folder)
@@ -249,7 +389,9 @@ def main():
 
     xdotool("key", "Escape")
     check(walk.ends() == 0, "Esc ends with status 0")
-    check("error" not in walk.output(), "nothing went wrong on the way")
+    rest = [line for line in walk.output().splitlines() if "tonemap.frag" not in line]
+    check(not any("error" in line for line in rest), "nothing else went wrong on the way")
+    check_panel(daylit, folder)
 
     blind = subprocess.run([daylit, "walk", "level.gltf"], cwd=folder, capture_output=True, text=True,
                            env={k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")})
