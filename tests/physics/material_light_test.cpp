@@ -266,6 +266,16 @@ TEST(Coat, TexturesOfItAreSeenByPaths) {
     }
 }
 
+TEST(Coat, RoughestIsThatOfLambertInAllDirections) {
+    // Light from where the view is: more than a right angle off the mirrored view.
+    const glsl::Brdf brdf{.diffuse = Rgb(0.3f), .specular = Rgb(0.2f), .exponent = 0.0f};
+    const Vec3 up(0, 1, 0), low = glm::normalize(Vec3(1, 0.2f, 0));
+    const Reflection surface(brdf, up, up, low);
+    const Rgb expected = glsl::evaluate_brdf(brdf, glm::dot(glm::reflect(-low, up), low)) * low.y;
+    EXPECT_NEAR(expected.r, 0.5f * low.y / float(kPi), 1e-6f);
+    EXPECT_NEAR(surface.evaluate_with_pdf(low).f_cos.r, expected.r, 1e-6f);
+}
+
 TEST(Mirror, ReflectsTheSkyByTheSharedBrdf) {
     // A lobe much narrower than the sky's features: L = albedo (n + 2) / (n + 1) cos(theta) L_sky, never more.
     TestScene test;

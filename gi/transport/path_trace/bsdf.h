@@ -13,11 +13,11 @@ namespace daylit {
 class Reflection {
   public:
     Reflection(const glsl::Brdf& brdf, const Vec3& geometric_normal, const Vec3& shading_normal, const Vec3& view)
-        : brdf_(brdf),
+        : brdf_(without_flat_lobe(brdf)),
           geometric_normal_(geometric_normal),
           shading_normal_(shading_normal),
           mirror_(glm::reflect(-view, shading_normal)),
-          lobe_chance_(lobe_share(brdf)) {}
+          lobe_chance_(lobe_share(brdf_)) {}
     /// A white Lambert surface of albedo pi: what it "reflects" is its irradiance.
     static Reflection irradiance(const Vec3& geometric_normal, const Vec3& shading_normal) {
         return Reflection({.diffuse = Rgb(kPiF), .specular = Rgb(0.0f), .exponent = 0.0f}, geometric_normal,
@@ -46,6 +46,11 @@ class Reflection {
     Sample sample(Vec2 u) const;
 
   private:
+    /// The lobe of exponent 0 is that of Lambert, in all directions: not only in those about the mirrored view.
+    static glsl::Brdf without_flat_lobe(const glsl::Brdf& brdf) {
+        if (brdf.exponent > 0.0f) return brdf;
+        return {.diffuse = brdf.diffuse + brdf.specular, .specular = Rgb(0.0f), .exponent = 0.0f};
+    }
     /// Share of the Phong lobe in what is reflected; < 0: black.
     static float lobe_share(const glsl::Brdf& brdf) {
         const float diffuse = luminance(brdf.diffuse), specular = luminance(brdf.specular);
