@@ -40,6 +40,12 @@ nlohmann::ordered_json number(double value) {
     return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
+double mean_luminance(const Image& image) {
+    double sum = 0;
+    for (const Rgb& pixel : image.pixels) sum += double(luminance(pixel));
+    return sum / double(image.pixels.size());
+}
+
 void print(const nlohmann::ordered_json& measures) {
     for (const auto& [name, value] : measures.items()) {
         if (value.is_string()) {
@@ -95,21 +101,23 @@ nlohmann::ordered_json compare_images(const CompareOptions& options, Kind kind) 
 
     const double peak = linear ? d.largest : 1.0;
     nlohmann::ordered_json measures = {{"kind", linear ? "linear" : "displayed"},
-                               {"width", a.width},
-                               {"height", a.height},
-                               {"rmse", number(d.rmse)},
-                               {"nrmse", number(d.nrmse)},
-                               {"bias", number(d.bias)},
-                               {"mse", number(d.mse)},
-                               {"psnr", number(10.0 * std::log10(peak * peak / d.mse))},
-                               {"p95", number(d.p95)},
-                               {"max_abs", number(d.max_abs)},
-                               {"max_abs_8bit", shown.max_abs_8bit},
-                               {"nan_count", d.nan_count},
-                               {"flip_mean", shown.flip_mean},
-                               {"flip_p95", shown.flip_p95},
-                               {"yee_failed", shown.yee_failed},
-                               {"yee_failed_oiio", shown.yee_failed_oiio}};
+                                       {"width", a.width},
+                                       {"height", a.height},
+                                       {"mean_a", number(mean_luminance(a))},
+                                       {"mean_b", number(mean_luminance(b))},
+                                       {"rmse", number(d.rmse)},
+                                       {"nrmse", number(d.nrmse)},
+                                       {"bias", number(d.bias)},
+                                       {"mse", number(d.mse)},
+                                       {"psnr", number(10.0 * std::log10(peak * peak / d.mse))},
+                                       {"p95", number(d.p95)},
+                                       {"max_abs", number(d.max_abs)},
+                                       {"max_abs_8bit", shown.max_abs_8bit},
+                                       {"nan_count", d.nan_count},
+                                       {"flip_mean", shown.flip_mean},
+                                       {"flip_p95", shown.flip_p95},
+                                       {"yee_failed", shown.yee_failed},
+                                       {"yee_failed_oiio", shown.yee_failed_oiio}};
     if (linear) measures["ev"] = ev;
     return measures;
 }
@@ -148,7 +156,9 @@ void add_compare(CLI::App& app) {
     command->add_flag("--json", options->json, "the measures as JSON on stdout");
     command->footer(
         "rmse, mse, max_abs: over all channels of linear values (a .png decoded to linear light). nrmse and p95 are\n"
-        "relative to the mean of B; bias is mean(A)/mean(B) - 1; psnr's peak is the largest value of B (1 for .png).\n"
+        "relative to the mean of B; bias is mean(A)/mean(B) - 1 and has no value where B is black: mean_a and mean_b "
+        "are the\n"
+        "mean luminances; psnr's peak is the largest value of B (1 for .png).\n"
         "flip_*: LDR-FLIP at 67 pixels per degree, both displayed at the automatic exposure of B. yee_failed: pixels\n"
         "told apart by Yee's metric; yee_failed_oiio: by OpenImageIO's, which overlooks differences of lightness.");
     command->callback([options] { compare(*options); });
