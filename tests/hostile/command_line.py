@@ -166,7 +166,8 @@ for part in ("lightmap", "volume", "dirmap", "antiradiance", "caustics"):
 for fps in ("0", "-1", "nan", "1e9"):
     expect(1, "--fps", "day", good, "-o", out, "--size", "32x24", "--fps", fps)
 expect(2, "--list", "make", "--list", "furnace", "-o", out)
-picture = write("picture.exr", b"")  # what is read is not written over, whatever is in it
+picture = work / "picture.exr"  # what is read is not written over
+daylit_run("shot", good, "-o", picture, "--size", "32x16")
 expect(1, "picture.exr", "compare", picture, picture, "-o", picture, output=picture)
 expect(1, "picture.exr", "shot", good, "--sky", picture, "-o", picture, output=picture)
 expect(1, "picture.exr", "reference", good, "--sky", picture, "-o", picture, output=picture)
