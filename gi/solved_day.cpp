@@ -12,7 +12,7 @@ namespace {
 
 /// Of all that decides what is traced.
 std::uint64_t checkpoint_key(const BakeInput& input) {
-    constexpr std::uint64_t kStage = 5;  // changes whenever what is traced does
+    constexpr std::uint64_t kStage = 6;  // changes whenever what is traced does
     const BakeSettings& settings = input.settings;
     std::uint64_t key = mix64(kStage ^ mix64(geometry_hash(input.mesh)));
     for (const std::uint64_t part : {std::uint64_t(input.plan.texel_budget), std::uint64_t(input.plan.rays),

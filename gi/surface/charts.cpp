@@ -1,5 +1,5 @@
-// Charts grow from the largest triangles outwards over shared edges (region growing by normal, as Levy et al. 2002 and
-// most atlas makers since do), and are projected along the seed's normal.
+// Charts grow from the largest triangles outwards over edges that are no creases (region growing by normal, as Levy et
+// al. 2002 and most atlas makers since do), and are projected along the seed's normal.
 #include "gi/surface/charts.h"
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 
 #include "engine/base/random.h"
 #include "gi/surface/raster.h"
+#include "gi/surface/touching.h"
 
 namespace daylit {
 namespace {
@@ -19,6 +20,8 @@ constexpr std::uint32_t kNone = ~0u;
 constexpr float kMinCosine = 0.8f;  // of a triangle's normal with the seed's: stretch by projection stays below 1.25
 constexpr std::size_t kTriedEdges = 48;  // directions tried when a chart is turned into its rectangle
 constexpr float kMostDifference = 4.0f;  // of nearness in a chart from its seed's, as a factor
+constexpr float kSmooth = 0.9f;  // cosine between shading normals along an edge: else light would bleed round a corner
+constexpr float kFewTexels = 4.0f;  // in area, that may be hidden and nevertheless lie in the chart beside
 constexpr float kFlat = 0.996f;  // cosine: without a crease between them, two charts' own noise would show as a seam
 
 /// Vertices at the same place are one vertex, whatever their normals and texture coordinates.
@@ -37,14 +40,14 @@ std::vector<std::uint32_t> weld(const std::vector<Vec3>& positions) {
     return welded;
 }
 
-/// For each triangle the three across its edges, kNone where an edge is open or shared by more than two.
-std::vector<std::array<std::uint32_t, 3>> neighbours(const WorldMesh& mesh, const std::vector<Facet>& facets) {
-    struct Edge {
-        std::uint32_t a, b, triangle, side;
-        bool operator<(const Edge& o) const {
-            return std::tie(a, b, triangle, side) < std::tie(o.a, o.b, o.triangle, o.side);
-        }
-    };
+struct Edge {
+    std::uint32_t a, b;  // welded vertices, the lower first
+    TriangleSide of;
+    auto order() const { return std::tie(a, b, of.triangle, of.side); }
+    bool same_place(const Edge& o) const { return a == o.a && b == o.b; }
+};
+
+std::vector<Edge> sorted_edges(const WorldMesh& mesh, const std::vector<Facet>& facets) {
     const std::vector<std::uint32_t> welded = weld(mesh.positions);
     std::vector<Edge> edges;
     edges.reserve(3 * facets.size());
@@ -52,21 +55,54 @@ std::vector<std::array<std::uint32_t, 3>> neighbours(const WorldMesh& mesh, cons
         for (std::uint32_t side = 0; facets[t].area > 0.0f && side < 3; ++side) {
             const std::uint32_t p = welded[mesh.indices[3 * std::size_t(t) + side]];
             const std::uint32_t q = welded[mesh.indices[3 * std::size_t(t) + (side + 1) % 3]];
-            edges.push_back({std::min(p, q), std::max(p, q), t, side});
+            edges.push_back({std::min(p, q), std::max(p, q), {t, side}});
         }
-    std::sort(edges.begin(), edges.end());
-    std::vector<std::array<std::uint32_t, 3>> result(facets.size(), {kNone, kNone, kNone});
-    for (std::size_t i = 0; i < edges.size();) {
-        std::size_t end = i + 1;
-        while (end < edges.size() && edges[end].a == edges[i].a && edges[end].b == edges[i].b) ++end;
-        if (end - i == 2) {
-            result[edges[i].triangle][edges[i].side] = edges[i + 1].triangle;
-            result[edges[i + 1].triangle][edges[i + 1].side] = edges[i].triangle;
-        }
-        i = end;
-    }
-    return result;
+    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.order() < b.order(); });
+    return edges;
 }
+
+/// Whether the surface, as it is shaded, bends sharply along an edge of two triangles: so does its light.
+bool crease(const WorldMesh& mesh, const TriangleSide& s, const TriangleSide& t) {
+    const auto normal = [&](const TriangleSide& of, std::size_t k) {
+        return mesh.normals[mesh.indices[3 * std::size_t(of.triangle) + (of.side + k) % 3]];
+    };
+    return std::min(glm::dot(normal(s, 0), normal(t, 1)), glm::dot(normal(s, 1), normal(t, 0))) < kSmooth;
+}
+
+/// Which triangles lie beside which: across a whole edge that just two share, or in one plane along a piece of one.
+class Neighbours {
+  public:
+    Neighbours(const WorldMesh& mesh, const std::vector<Facet>& facets)
+        : across_(facets.size(), {kNone, kNone, kNone}) {
+        const std::vector<Edge> edges = sorted_edges(mesh, facets);
+        std::vector<TriangleSide> open;
+        for (std::size_t i = 0; i < edges.size();) {
+            std::size_t end = i + 1;
+            while (end < edges.size() && edges[end].same_place(edges[i])) ++end;
+            if (end - i == 2 && !crease(mesh, edges[i].of, edges[i + 1].of)) join(edges[i].of, edges[i + 1].of);
+            for (; end - i != 2 && i < end; ++i) open.push_back(edges[i].of);
+            i = end;
+        }
+        for (const auto& [a, b] : touching(mesh, facets, open)) pieces_.push_back({a, b}), pieces_.push_back({b, a});
+        std::sort(pieces_.begin(), pieces_.end());
+    }
+
+    template <class Use>
+    void for_each(std::uint32_t triangle, const Use& use) const {
+        for (const std::uint32_t next : across_[triangle])
+            if (next != kNone) use(next);
+        auto piece = std::lower_bound(pieces_.begin(), pieces_.end(), std::array{triangle, 0u});
+        for (; piece != pieces_.end() && (*piece)[0] == triangle; ++piece) use((*piece)[1]);
+    }
+
+  private:
+    void join(const TriangleSide& a, const TriangleSide& b) {
+        across_[a.triangle][a.side] = b.triangle, across_[b.triangle][b.side] = a.triangle;
+    }
+
+    std::vector<std::array<std::uint32_t, 3>> across_;  // kNone where an edge is open or shared by more than two
+    std::vector<std::array<std::uint32_t, 2>> pieces_;  // both ways, sorted
+};
 
 /// Two unit vectors that make a right-handed frame with n (Duff et al. 2017).
 std::pair<Vec3, Vec3> frame(const Vec3& n) {
@@ -160,11 +196,13 @@ void fit_rectangle(const WorldMesh& mesh, Chart& chart) {
     chart.size = best_size;
 }
 
-/// Whether one density of texels serves both.
+/// Whether one density of texels serves a triangle and the seed of a chart.
 /// cosine   between their normals
-bool alike(const Surroundings& a, const Surroundings& b, float cosine) {
-    const auto [less, more] = std::minmax(a.nearness, b.nearness);
-    return a.hidden == b.hidden && (cosine > kFlat || more <= kMostDifference * less);
+/// small    the triangle is: looked at from a point or two, it is found hidden where a part of it is seen
+bool alike(const Surroundings& triangle, const Surroundings& seed, float cosine, bool small) {
+    if (triangle.hidden != seed.hidden) return triangle.hidden && small && cosine > kFlat;
+    const auto [less, more] = std::minmax(triangle.nearness, seed.nearness);
+    return cosine > kFlat || more <= kMostDifference * less;
 }
 
 }  // namespace
@@ -186,7 +224,7 @@ std::vector<Chart> grow_charts(const WorldMesh& mesh, float grain, std::span<con
     std::vector<Facet> facet = facets(mesh);
     for (std::size_t t = 0; t < left_out.size(); ++t)
         if (left_out[t]) facet[t] = {};
-    const auto across = neighbours(mesh, facet);
+    const Neighbours neighbours(mesh, facet);
     std::vector<std::uint32_t> seeds(facet.size());
     std::iota(seeds.begin(), seeds.end(), 0u);
     std::stable_sort(seeds.begin(), seeds.end(),
@@ -195,6 +233,7 @@ std::vector<Chart> grow_charts(const WorldMesh& mesh, float grain, std::span<con
     std::vector<Chart> charts;
     std::vector<std::uint32_t> chart_of(facet.size(), kNone);
     TakenCells taken(grain);
+    const float texel_area = 4.0f * grain * grain;
     for (std::uint32_t seed : seeds) {
         if (chart_of[seed] != kNone || facet[seed].area <= 0.0f) continue;
         const std::uint32_t id = std::uint32_t(charts.size());
@@ -202,9 +241,10 @@ std::vector<Chart> grow_charts(const WorldMesh& mesh, float grain, std::span<con
         chart.origin = corner(mesh, seed, 0);
         std::tie(chart.axis_u, chart.axis_v) = frame(facet[seed].normal);
         const auto try_add = [&](std::uint32_t t) {
-            if (t == kNone || chart_of[t] != kNone) return;
+            if (chart_of[t] != kNone) return;
             const float cosine = glm::dot(facet[t].normal, facet[seed].normal);
-            if (cosine < kMinCosine || (!around.empty() && !alike(around[t], around[seed], cosine))) return;
+            const bool small = facet[t].area <= kFewTexels * texel_area;
+            if (cosine < kMinCosine || (!around.empty() && !alike(around[t], around[seed], cosine, small))) return;
             std::array<Vec2, 3> p;
             for (std::size_t k = 0; k < 3; ++k) p[k] = chart.project(corner(mesh, t, k));
             if (!taken.take(id, p) && t != seed) return;
@@ -212,8 +252,7 @@ std::vector<Chart> grow_charts(const WorldMesh& mesh, float grain, std::span<con
             chart.triangles.push_back(t);
         };
         try_add(seed);
-        for (std::size_t i = 0; i < chart.triangles.size(); ++i)
-            for (std::uint32_t next : across[chart.triangles[i]]) try_add(next);
+        for (std::size_t i = 0; i < chart.triangles.size(); ++i) neighbours.for_each(chart.triangles[i], try_add);
         fit_rectangle(mesh, chart);
     }
     return charts;

@@ -9,8 +9,9 @@
 
 namespace daylit {
 
-/// Connected triangles whose normals lie within 37 degrees of one another's seed, seen along that seed's normal. No
-/// two of them cover the same place of the plane.
+/// Connected triangles whose normals lie within 37 degrees of one another's seed, seen along that seed's normal; those
+/// of one plane may touch along pieces of edges, others share edges whole, along which shading is smooth. No two of
+/// them cover the same place of the plane.
 struct Chart {
     std::vector<std::uint32_t> triangles;                  // of the WorldMesh
     Vec3 origin = Vec3(0.0f);                              // world position of (0, 0) of the plane
@@ -22,8 +23,9 @@ struct Chart {
 
 /// Every triangle of positive area that is not left out has one chart; charts are turned to fill their rectangles well.
 /// grain     metres: overlaps narrower than this may go unseen
-/// around    per triangle, or empty: what is hidden stays out; beyond a crease also what is much nearer to its
-/// surroundings left_out  per triangle, or empty: those that get no chart
+/// around    per triangle, or empty: what is hidden stays out, but for small pieces; out of the seed's plane also what
+///           is much nearer to its surroundings
+/// left_out  per triangle, or empty: those that get no chart
 std::vector<Chart> grow_charts(const WorldMesh& mesh, float grain, std::span<const Surroundings> around = {},
                                const std::vector<bool>& left_out = {});
 

@@ -182,6 +182,8 @@ TEST(Covered, ARoundThingDoesNotCoverItself) {
         return Vec3(2.0f + 0.1f * float(std::cos(angle)), height, 2.0f - 0.1f * float(std::sin(angle)));
     };
     for (int k = 0; k < kSides; ++k) made.quad(white, rim(k, 1.5f), rim(k + 1, 1.5f) - rim(k, 1.5f), Vec3(0, 0.25f, 0));
+    for (std::size_t i = made.mesh.normals.size() - 6 * kSides; i < made.mesh.normals.size(); ++i)  // shaded smoothly
+        made.mesh.normals[i] = glm::normalize((made.mesh.positions[i] - Vec3(2, 0, 2)) * Vec3(1, 0, 1));
     const Atlas atlas = make_atlas(made.mesh, 850);
     const Texels texels = make_parted_texels(made.trace(), atlas);
     int curved = 0;

@@ -195,6 +195,55 @@ TEST(UnwrapBox, ABoxTakesSixCharts) {
     }
 }
 
+/// A wall of 4 x 4 m that looks along z, and beside it two of half its height.
+WorldMesh cut_wall() {
+    WorldMesh mesh;
+    const auto quad = [&](const Vec2& a, const Vec2& b) {
+        add_quad(mesh, Vec3(a, 0), Vec3(b.x, a.y, 0), Vec3(b, 0), Vec3(a.x, b.y, 0));
+    };
+    quad({0, 0}, {4, 4}), quad({4, 0}, {6, 2}), quad({4, 2}, {6, 4});
+    return mesh;
+}
+
+TEST(UnwrapCutWall, PiecesThatTouchAlongPartsOfEdgesAreOneChart) {
+    for (const Vec3& away : {Vec3(0.0f), Vec3(0.3f, 57.1f, -0.7f), Vec3(1e4f, -333.3f, 1e3f)}) {
+        WorldMesh mesh = cut_wall();
+        for (Vec3& p : mesh.positions) p += away;
+        EXPECT_EQ(grow_charts(mesh, 0.1f).size(), 1u) << away.x;
+    }
+}
+
+TEST(UnwrapCutWall, PiecesInOtherPlanesOrApartOrTurnedAwayAreNot) {
+    const std::size_t small = 6;  // the first corner of the two lesser quads
+    const auto charts = [&](const auto& change) {
+        WorldMesh mesh = cut_wall();
+        for (std::size_t i = small; i < mesh.positions.size(); ++i) mesh.positions[i] = change(mesh.positions[i]);
+        return grow_charts(mesh, 0.1f).size();
+    };
+    EXPECT_EQ(charts([](const Vec3& p) { return p + Vec3(0, 0, 0.01f); }), 2u);
+    EXPECT_EQ(charts([](const Vec3& p) { return p + Vec3(0.01f, 0, 0); }), 2u);
+    EXPECT_EQ(charts([](const Vec3& p) { return Vec3(p.x, 4.0f - p.y, p.z); }), 2u);         // seen from behind
+    EXPECT_EQ(charts([](const Vec3& p) { return p + 0.1f * Vec3(0, 0, p.x - 4.0f); }), 2u);  // bends away
+}
+
+TEST(UnwrapCutWall, ASmallPieceMayBeHiddenAndALargeOneNot) {
+    const WorldMesh mesh = cut_wall();
+    std::vector<Surroundings> around(mesh.triangle_count(), {.nearness = 1.0f});
+    around[5].hidden = true;  // 2 square metres
+    EXPECT_EQ(grow_charts(mesh, 0.4f, around).size(), 1u);
+    EXPECT_EQ(grow_charts(mesh, 0.1f, around).size(), 2u);
+}
+
+TEST(UnwrapCrease, AFloorAndASlopeAreOneChartWhereTheyAreShadedAsOne) {
+    WorldMesh mesh;
+    add_quad(mesh, Vec3(0, 0, 0), Vec3(0, 0, 2), Vec3(2, 0, 2), Vec3(2, 0, 0));
+    add_quad(mesh, Vec3(2, 0, 0), Vec3(2, 0, 2), Vec3(4, 1.3f, 2), Vec3(4, 1.3f, 0));  // 33 degrees
+    EXPECT_EQ(grow_charts(mesh, 0.1f).size(), 1u);
+    const std::vector<Facet> facet = facets(mesh);
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) mesh.normals[mesh.indices[i]] = facet[i / 3].normal;
+    EXPECT_EQ(grow_charts(mesh, 0.1f).size(), 2u);
+}
+
 TEST(UnwrapMany, AMillionTinyChartsTakeOneTexelEach) {
     WorldMesh mesh;
     for (int i = 0; i < 1000; ++i)
