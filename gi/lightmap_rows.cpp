@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "gi/encode/encode_lightmap.h"
+#include "gi/stitch.h"
 #include "gi/surface/smooth.h"
 #include "gi/transport/day_gather/more_rays.h"
 
@@ -219,6 +220,7 @@ LightmapRows lightmap_rows(SolvedDay& solved, const StageProgress& progress) {
         rows_of_texels(solved, shown(solved.atlas, solved.texels, solved.hits, open), brightness, result);
     show_bare_neighbours(solved, bare(solved.texels, open), open, brightness, row);
     result.row_of_pixel = rows_of_pixels(solved.atlas, solved.texels, row);
+    stitch_thin_charts(solved, open, row, result);
     return result;
 }
 

@@ -7,8 +7,8 @@ namespace daylit {
 struct LightmapRows {
     DayLightmap shape;  // width, height and corner_uvs alone
     LightBasis basis;
-    std::vector<Rgb> texels;  // [texel][component], smoothed
-    TexelTilts tilts;
+    std::vector<Rgb> texels;   // [row][component]: of texels, smoothed; after them of pixels of thin charts (stitch.h)
+    TexelTilts tilts;          // of rows
     std::vector<float> noise;  // per texel, relative standard error (texel_noise.h) with all rays, before smoothing
     double more_rays = 0.0;    // mean per texel of those that the noise called for
     std::vector<Moment> moments;

@@ -219,6 +219,23 @@ std::vector<Facet> facets(const WorldMesh& mesh) {
     return result;
 }
 
+std::vector<std::uint32_t> smooth_pieces(const WorldMesh& mesh) {
+    const Neighbours neighbours(mesh, facets(mesh));
+    std::vector<std::uint32_t> piece(mesh.triangle_count(), kNone), found;
+    std::uint32_t count = 0;
+    for (std::uint32_t seed = 0; seed < piece.size(); ++seed) {
+        if (piece[seed] != kNone) continue;
+        found.assign(1, seed);
+        piece[seed] = count;
+        for (std::size_t i = 0; i < found.size(); ++i)
+            neighbours.for_each(found[i], [&](std::uint32_t next) {
+                if (piece[next] == kNone) piece[next] = count, found.push_back(next);
+            });
+        ++count;
+    }
+    return piece;
+}
+
 std::vector<Chart> grow_charts(const WorldMesh& mesh, float grain, std::span<const Surroundings> around,
                                const std::vector<bool>& left_out) {
     std::vector<Facet> facet = facets(mesh);

@@ -29,6 +29,9 @@ struct Chart {
 std::vector<Chart> grow_charts(const WorldMesh& mesh, float grain, std::span<const Surroundings> around = {},
                                const std::vector<bool>& left_out = {});
 
+/// For each triangle the number of the piece of surface that it is on: pieces end at creases and open edges.
+std::vector<std::uint32_t> smooth_pieces(const WorldMesh& mesh);
+
 /// Area of a triangle in square metres and its unit normal by winding; zero and (0,0,0) when it has none.
 struct Facet {
     float area = 0.0f;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nanoflann.hpp>
 
+#include "gi/surface/point_tree.h"
 #include "gi/transport/path_trace/sampling.h"
 
 namespace daylit {
@@ -19,17 +19,6 @@ constexpr float kReach = 2.5f;            // sigmas
 constexpr float kLeastFacing = 0.9f;
 constexpr float kPlane = 0.25f;  // texels out of the tangent plane at which the weight falls to 1/e
 constexpr double kStiff = 0.01;  // squared texels on top of the neighbours' spread: few of them tell no slope
-
-struct Cloud {
-    const std::vector<Vec3>& points;
-    std::size_t kdtree_get_point_count() const { return points.size(); }
-    float kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][int(axis)]; }
-    template <class Box>
-    bool kdtree_get_bbox(Box&) const {
-        return false;
-    }
-};
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Cloud>, Cloud, 3, std::uint32_t>;
 
 class Neighbourhood {
   public:
@@ -57,11 +46,7 @@ class Neighbourhood {
 
   private:
     bool sees(std::uint32_t a, std::uint32_t b) const {
-        const auto above = [&](std::uint32_t t) {
-            return texels_.position[t] +
-                   std::min(kSightHeight * texels_.width[t], 0.3f * nearness_[t]) * texels_.normal[t];
-        };
-        return in_sight(rays_, above(a), above(b));
+        return in_sight(rays_, just_above(texels_, nearness_, a), just_above(texels_, nearness_, b));
     }
 
     const RayScene& rays_;
@@ -91,11 +76,16 @@ void fit_plane(const Texels& texels, std::uint32_t texel, std::span<const std::u
 
 }  // namespace
 
+Vec3 just_above(const Texels& texels, std::span<const float> nearness, std::uint32_t texel) {
+    const float height = std::min(kSightHeight * texels.width[texel], 0.3f * nearness[texel]);
+    return texels.position[texel] + height * texels.normal[texel];
+}
+
 SmoothingWeights smoothing_weights(const RayScene& rays, const Texels& texels, std::span<const float> nearness,
                                    const std::vector<bool>& usable) {
     const std::size_t count = texels.count();
-    const Cloud cloud{texels.position};
-    Tree tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(16));
+    const PointCloud cloud{texels.position};
+    PointTree tree(3, cloud, kPointsOfLeaf);
     tree.buildIndex();
     const Neighbourhood neighbourhood(rays, texels, nearness, usable);
     std::vector<std::uint32_t> found(count * kNeighbours, kNoTexel);

@@ -23,6 +23,9 @@ struct SmoothingWeights {
 SmoothingWeights smoothing_weights(const RayScene& rays, const Texels& texels, std::span<const float> nearness,
                                    const std::vector<bool>& usable);
 
+/// Above a texel's middle, and below what hangs over it: from where its neighbours are looked for.
+Vec3 just_above(const Texels& texels, std::span<const float> nearness, std::uint32_t texel);
+
 /// rows   texels * columns; smoothed in place, so many columns at a time, since a second copy of all would be what a
 /// bake's
 ///        memory peaks at
