@@ -36,51 +36,58 @@ TestScene two_rooms(float thick, float door) {
     return made;
 }
 
-Baked bake_rooms(const TestScene& rooms) {
+Baked bake_rooms(const TestScene& rooms, double error) {
     BakeSettings settings = one_hour();
+    settings.error = error;
     settings.parts = {"volume"};
     return bake(with_plates(rooms, {Vec3(1.5f, 1.2f, 1.5f), Vec3(4.5f, 1.2f, 1.5f)}), settings);
 }
 
-/// Errors in the dark room five centimetres from the wall, over the mean light there.
+constexpr double kPreview = 0.1, kMedium = 0.03;  // errors of bakes
+// Of the truth: with 1024 its own noise was 2.6 % RMS and 6 % at worst, more than all that is judged here.
+constexpr int kPaths = 16384;
+
+/// Errors in the dark room five centimetres from the wall, over the mean light there, and the worst over its own truth.
 struct Leak {
-    double worst = 0.0, rms = 0.0;
+    double worst = 0.0, rms = 0.0, own = 0.0;
 };
 
 Leak leak(float thick) {
     TestScene rooms = two_rooms(thick, 0.0f);
-    const Baked baked = bake_rooms(rooms);
+    const Baked baked = bake_rooms(rooms, kMedium);
     EXPECT_TRUE(baked.volume);
     std::vector<SurfaceSample> points;
     for (const float y : {0.3f, 1.1f, 2.3f})
         for (const float z : {0.2f, 1.6f, 2.5f})
             for (const Vec3& normal : kNormals) points.push_back({Vec3(kRoom.x + thick + 0.05f, y, z), normal});
     const std::vector<Rgb> expected =
-        path_trace_irradiance(rooms.trace(), no_light(), {}, points, {.spp = 1024, .layer = Layer::Indirect});
-    double mean = 0.0, squares = 0.0, worst = 0.0;
+        path_trace_irradiance(rooms.trace(), no_light(), {}, points, {.spp = kPaths, .layer = Layer::Indirect});
+    double mean = 0.0, squares = 0.0, worst = 0.0, own = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         mean += double(expected[i].g) / double(points.size());
         const double wrong = double(at(baked, points[i].position, points[i].normal).g) - double(expected[i].g);
         squares += wrong * wrong / double(points.size());
-        worst = std::max(worst, std::abs(wrong));
+        worst = std::max(worst, std::abs(wrong)), own = std::max(own, std::abs(wrong) / double(expected[i].g));
     }
-    std::printf("wall of %g m: RMS %.3f, worst %.3f of the dark side's mean %.3g lux\n", double(thick),
-                std::sqrt(squares) / mean, worst / mean, mean);
-    return {worst / mean, std::sqrt(squares) / mean};
+    std::printf("wall of %g m: RMS %.3f, worst %.3f of the dark side's mean %.3g lux, %.3f of its own truth\n",
+                double(thick), std::sqrt(squares) / mean, worst / mean, mean, own);
+    return {worst / mean, std::sqrt(squares) / mean, own};
 }
 
-// The other side is a thousand times as bright. What is left is mostly of cells that are well enough for a preview.
+// The other side is a thousand times as bright.
 TEST(VolumeLeak, next_to_nothing_comes_through_a_wall_of_ten_centimetres) {
     const Leak found = leak(0.10f);
-    EXPECT_LT(found.rms, 0.04);
-    EXPECT_LT(found.worst, 0.10);
+    EXPECT_LT(found.rms, 0.02);
+    EXPECT_LT(found.worst, 0.05);
+    EXPECT_LT(found.own, 0.05);
 }
 
 // Thinner than the floor's texels, which are parted where they lie across the foot of the wall.
 TEST(VolumeLeak, next_to_nothing_comes_through_a_wall_thinner_than_texels) {
     const Leak found = leak(0.02f);
-    EXPECT_LT(found.rms, 0.04);
-    EXPECT_LT(found.worst, 0.10);
+    EXPECT_LT(found.rms, 0.02);
+    EXPECT_LT(found.worst, 0.05);
+    EXPECT_LT(found.own, 0.05);
 }
 
 /// Largest change over a millimetre against the larger of the changes before and after, on a straight path.
@@ -101,7 +108,7 @@ double worst_step(const Baked& baked, const Vec3& from, const Vec3& to) {
 }
 
 TEST(VolumeLeak, nothing_pops_on_twenty_ways_through_a_door) {
-    const Baked baked = bake_rooms(two_rooms(0.10f, 1.0f));
+    const Baked baked = bake_rooms(two_rooms(0.10f, 1.0f), kPreview);
     ASSERT_TRUE(baked.volume);
     double worst = 0.0;
     for (int way = 0; way < 20; ++way) {
