@@ -336,6 +336,7 @@ EncodedVolume VolumeEncoder::encode(const VolumeSettings& settings, const StageP
     result.samples = refined.places.samples.size();
     result.unmeasured = std::size_t(std::count(fit.measured.begin(), fit.measured.end(), false));
     result.budget_spent = refined.budget_spent;
+    if (s.kept) result.records = std::move(fit.records);
     progress.at(1.0);
     return result;
 }

@@ -22,6 +22,7 @@ struct EncodedVolume {
     std::vector<std::string>
         buried;                 // dynamic nodes that rest inside of something solid, lit as the nearest open place
     bool budget_spent = false;  // cells ran out before errors did
+    std::vector<float> records;  // as store_records() rounds them; of an encoder that keeps samples alone
 };
 
 /// Encodes one solution's light, once or for several settings that are to be compared. Everything handed over must
@@ -29,7 +30,7 @@ struct EncodedVolume {
 class VolumeEncoder {
   public:
     /// settings       rays and seed of samples; encode() takes the rest
-    /// keep_samples   so that later encodings trace no place again
+    /// keep_samples   so that later encodings trace no place again, and other steps need no other fit
     VolumeEncoder(const Scene& scene, const Reachable& reachable, const GatherScene& gather, const GatherHits& hits,
                   const LightBasis& light, const LeavingLight& leaving, std::span<const Moment> moments,
                   const VolumeSettings& settings, const BasisSettings& basis, bool keep_samples = false);

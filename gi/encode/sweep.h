@@ -1,5 +1,6 @@
 #pragma once
 // What `daylit report` compares of the ways to store one solution.
+#include <array>
 #include <string>
 #include <variant>
 #include <vector>
@@ -41,5 +42,9 @@ std::vector<VolumeModePoint> volume_modes();
 /// the error (BakePlan::volume_settings) roots   along x, y, z (VolumeEncoder::roots)
 std::vector<VolumeSettings> volume_sizes(const VolumeScheme& mode, const VolumeSettings& plan,
                                          const std::array<int, 3>& roots);
+
+/// Of each size, the steps that records are kept in, times the plan's: fewer cells in finer steps, or more in coarser
+/// ones, whichever is the better use of bytes; that is not the same for all modes.
+inline constexpr std::array<float, 2> kVolumeSteps = {1.0f, 3.0f};
 
 }  // namespace daylit

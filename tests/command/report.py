@@ -88,9 +88,12 @@ for i, best in enumerate(modes["Adini-Hermite"]):
     four, two = modes["four bands"][i], modes["two bands"][i]
     assert four["nrmse"] == best["nrmse"] and four["file_bytes"] > best["file_bytes"] > two["file_bytes"]
     assert best["gather_nrmse"] < two["gather_nrmse"], i
+assert 0 < data["findings"]["volume-modes"]["gather_error"] < 0.2
 for mode in ("Adini-Hermite", "trilinear"):
     bytes_of = [values["file_bytes"] for values in modes[mode]]
-    assert bytes_of == sorted(bytes_of, reverse=True), "largest first"
+    fine, coarse = bytes_of[::2], bytes_of[1::2]
+    assert fine == sorted(fine, reverse=True) and coarse == sorted(coarse, reverse=True), "largest first"
+    assert all(c < 0.9 * f for f, c in zip(fine, coarse)), "the same in coarser steps"
 
 # Charts, and files that the page shows and that are there.
 svg = "{http://www.w3.org/2000/svg}"

@@ -44,7 +44,7 @@ Baked bake_rooms(const TestScene& rooms, double error) {
 }
 
 constexpr double kPreview = 0.1, kMedium = 0.03;  // errors of bakes
-// Of the truth: with 1024 its own noise was 2.6 % RMS and 6 % at worst, more than all that is judged here.
+// Of the truth: with 1024 its own noise was most of what was found.
 constexpr int kPaths = 16384;
 
 /// Errors in the dark room five centimetres from the wall, over the mean light there, and the worst over its own truth.
