@@ -16,7 +16,7 @@ struct LightmapSettings {
     int most_patterns = DayLightmap::kMostPatterns;  // of a tile
     int usual_patterns = 24;                         // of a tile whose error is below `bad_error` with these
     double error = 0.01;      // of a tile's worst moment, relative: where no further pattern is added
-    double bad_error = 0.08;  // the same, where it shows as a tint
+    double bad_error = 0.03;  // the same, where it shows as a tint
     double step = 0.004;      // of texels, relative, at the moment when a pattern shines most
     BasisSettings basis;
 };
