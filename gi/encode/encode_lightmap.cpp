@@ -233,7 +233,7 @@ void measure(const TileJudge& judge, const TileRows& tile, const Vector& seen, C
         for (Eigen::Index p = 0; p < k; ++p)
             values(i, p) = double(coded.values[std::size_t(p) * coded.rows + std::size_t(i * kCheckedEvery)]);
     }
-    const Matrix truth = moments_of(rows, judge.truth);
+    const Matrix truth = moments_of(rows, judge.truth).cwiseMax(0.0);  // few components swing below zero at times
     const Matrix found = (values * moments_of(light, judge.shown)).cwiseMax(0.0);
     const Eigen::RowVectorXd squares = (found - truth).cwiseAbs2().colwise().sum();
     coded.wrong = sum_channels(squares).cwiseQuotient(seen.cwiseAbs2());

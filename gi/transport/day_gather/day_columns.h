@@ -10,6 +10,9 @@ namespace daylit {
 /// Columns without hours, in this order after those of S and K.
 enum class StillPart { Overcast, Ground, Night, Evening, Lamps };
 inline constexpr std::size_t kStillParts = 5;
+/// Components of a solution, the still parts among them: its error falls slowly with them, for sun comes to places for
+/// minutes. A room that it enters through a door was black and blue about its patch with 64 of them.
+inline constexpr std::size_t kMostComponents = 96;
 
 /// S at every hour, K at every hour, then the still parts. S and K have one column alone where they are the same all
 /// day, and none where there is no such light.

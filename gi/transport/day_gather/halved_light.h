@@ -29,7 +29,7 @@ class HalvedLight {
         }
     }
 
-    static constexpr std::size_t kMostNumbers = 3 * 64;  // of a row
+    static constexpr std::size_t kMostNumbers = 3 * kMostComponents;  // of a row
     static constexpr std::size_t kAhead = 6;             // rows to fetch ahead of their use
 
   private:

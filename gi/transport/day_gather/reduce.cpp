@@ -98,7 +98,8 @@ Reduction reduce(const DayLight& light, const SampleRows& sample, const SampleRo
     const std::size_t columns = light.columns.suns + light.columns.skies;
     if (light.columns.hours.size() < 2 || columns < 2) return every_column(columns);
     const std::vector<double> worth = column_worth(light, exposure);
-    const Eigen::Index most = Eigen::Index(std::min(settings.most, columns));
+    const std::size_t allowed = (settings.most + kStillParts) / kStep * kStep - kStillParts;
+    const Eigen::Index most = Eigen::Index(std::min(allowed, columns));
     const Matrix vectors = eigen_decomposition(gram(judged(light, sample, worth, exposure))).vectors.leftCols(most);
     const std::vector<double> error = errors(judged(light, check, worth, exposure), vectors);
 

@@ -25,7 +25,7 @@ struct Reduction {
 };
 
 struct ReductionSettings {
-    std::size_t most = 59;  // components; with the still parts 64
+    std::size_t most = kMostComponents - kStillParts;  // components; at least 3
     double error = 0.003;
 };
 

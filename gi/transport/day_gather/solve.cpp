@@ -20,6 +20,13 @@ constexpr std::size_t kSampleRows = 3072, kCheckRows = 1024;
 constexpr int kSampleReach = 2;      // texels about a sampled one
 constexpr std::size_t kChunk = 512;  // receivers whose sums belong together, whatever the threads
 constexpr std::size_t kAhead = 6;    // rows fetched ahead of their use
+// Of many texels fewer components are kept, for memory: so many numbers a channel, but kFewComponents at least.
+constexpr std::size_t kMostNumbers = 38'000'000, kFewComponents = 64;
+
+/// Components of a solution, the still parts among them.
+std::size_t most_components(std::size_t texels) {
+    return std::clamp(kMostNumbers / std::max<std::size_t>(texels, 1), kFewComponents, kMostComponents);
+}
 
 /// What shines straight on receivers, before it is known which components are worth keeping.
 struct Direct {
@@ -133,7 +140,8 @@ class Solver {
 
     void choose_components() {
         const SampleRows chosen = sample(kSampleRows, 0);
-        const Reduction reduction = reduce(light_, chosen, sample(kCheckRows, 1), exposures(chosen));
+        const ReductionSettings settings{.most = most_components(scene_.texels.count()) - kStillParts};
+        const Reduction reduction = reduce(light_, chosen, sample(kCheckRows, 1), exposures(chosen), settings);
         DayBasisCurves& basis = solution_.basis;
         basis.columns = light_.columns;
         basis.components = reduction.components + kStillParts;
@@ -181,7 +189,7 @@ class Solver {
         const DayBasisCurves& basis = solution_.basis;
         Rgb* row = solution_.leaving.data() + r * basis.components;
         const std::size_t changing = basis.components - kStillParts;
-        std::array<float, 64> sun{};
+        std::array<float, kMostComponents> sun{};
         const SunRows::Row arc = direct_.arcs.row(r);
         for (std::size_t k = 0; k < arc.values.size(); ++k) {
             const float* project = project_.data() + (arc.first + k) * changing;
@@ -243,7 +251,7 @@ class Solver {
             [&](std::size_t chunk) {
                 Sums& sum = sums[chunk];
                 sum.brought.assign(width(), 0.0), sum.all.assign(width(), 0.0);
-                std::array<float, 3 * 64> row;
+                std::array<float, 3 * kMostComponents> row;
                 for (std::size_t r = chunk * kChunk; r < std::min((chunk + 1) * kChunk, receivers_); ++r) {
                     gather(r, sky, row.data());
                     reflect(r, row.data(), sum.brought, sum.all);
@@ -279,7 +287,7 @@ class Solver {
         const bool front = r < scene_.texels.count();
         Rgb* leaving = solution_.leaving.data() + r * components;
         Rgb* texel = front ? solution_.texels.data() + r * components : nullptr;
-        std::array<Rgb, 64> reflected;
+        std::array<Rgb, kMostComponents> reflected;
         const Rgb albedo = of_all_around(r);
         for (std::size_t i = 0; i < components; ++i) {
             const Rgb light(gathered[3 * i], gathered[3 * i + 1], gathered[3 * i + 2]);
