@@ -2,6 +2,23 @@
 layout(std140, binding = 2) uniform Lamps { LampsBlock lamp_block; };
 layout(binding = 8) uniform sampler2DArray lamp_depth;  // near / distance along the map's axis; 0 where nothing is
 
+// Sets of lamps have a bit for each; LAMPS words are used.
+bool any_lamp(uvec4 bits) {
+    uint any = 0u;
+    for (int word = 0; word < LAMPS; ++word) any |= bits[word];
+    return any != 0u;
+}
+
+// The number of the first lamp, which leaves the set.
+int take_lamp(inout uvec4 bits) {
+    int word = LAMPS - 1;
+    for (int other = LAMPS - 2; other >= 0; --other)
+        if (bits[other] != 0u) word = other;
+    int lamp = 32 * word + findLSB(bits[word]);
+    bits[word] &= bits[word] - 1u;
+    return lamp;
+}
+
 // Lux on a plane that faces lamp i; to_lamp is the vector from the point to it. As facing_irradiance() in C++.
 vec3 lamp_irradiance(int i, vec3 to_lamp) {
     float d2 = dot(to_lamp, to_lamp);
@@ -19,43 +36,41 @@ vec3 lamp_irradiance(int i, vec3 to_lamp) {
     return lamp_block.lamps[i].intensity.rgb * (window * cone / d2);
 }
 
-// The frame of a cube's face: axis along the major direction, as lamp_shadow.cpp draws it.
-void cube_face(vec3 d, out int face, out vec3 x, out vec3 y, out vec3 z) {
-    vec3 a = abs(d);
+// Turns point and normal, seen from the lamp, into the frame of the cube's face that the point lies in: x, y, and the axis
+// along the major direction, as lamp_shadow.cpp draws it. Its axes are the world's in turn.
+int to_cube_face(inout vec3 p, inout vec3 n) {
+    vec3 a = abs(p);
+    int face = 4;
     if (a.x >= a.y && a.x >= a.z) {
-        face = d.x > 0.0 ? 0 : 1;
-        z = vec3(sign(d.x), 0.0, 0.0);
-        x = vec3(0.0, 1.0, 0.0);
+        face = 0;
+        p = p.yzx;
+        n = n.yzx;
     } else if (a.y >= a.z) {
-        face = d.y > 0.0 ? 2 : 3;
-        z = vec3(0.0, sign(d.y), 0.0);
-        x = vec3(0.0, 0.0, 1.0);
-    } else {
-        face = d.z > 0.0 ? 4 : 5;
-        z = vec3(0.0, 0.0, sign(d.z));
-        x = vec3(1.0, 0.0, 0.0);
+        face = 2;
+        p = p.zxy;
+        n = n.zxy;
     }
-    y = cross(z, x);
+    float way = p.z > 0.0 ? 1.0 : -1.0;
+    p.yz *= way;
+    n.yz *= way;
+    return way > 0.0 ? face : face + 1;
 }
 
 float lamp_visibility(int i, vec3 to_lamp, vec3 normal) {
     if (dot(normal, to_lamp) <= 0.0) return 0.0;
-    vec3 d = -to_lamp;
-    int face = 0;
-    vec3 x, y, z;
-    cube_face(d, face, x, y, z);
     float side = frame.counts.w, span = 1.0 + kLampBorder / side;
+    vec3 p = -to_lamp, n = normal;
+    int face = to_cube_face(p, n);
 #ifdef SPOTS
     if (lamp_block.lamps[i].map.x > 0.0) {
         span = lamp_block.lamps[i].map.x;
         face = 0;
-        x = lamp_block.lamps[i].axis_x.xyz;
-        z = lamp_block.lamps[i].direction.xyz;
-        y = cross(z, x);
+        vec3 x = lamp_block.lamps[i].axis_x.xyz, z = lamp_block.lamps[i].direction.xyz;
+        mat3 world_from_map = mat3(x, cross(z, x), z);
+        p = -to_lamp * world_from_map;
+        n = normal * world_from_map;
     }
 #endif
-    vec3 p = vec3(dot(x, d), dot(y, d), dot(z, d));
-    vec3 n = vec3(dot(x, normal), dot(y, normal), dot(z, normal));
     vec2 place = (p.xy / (p.z * span) * 0.5 + 0.5) * side;
     vec2 base = floor(place - 0.5);
     vec2 f = place - 0.5 - base;

@@ -68,37 +68,38 @@ float tap_rotation() {
 const mat2 kGoldenTurn = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
 
 // taps is 0 outside of penumbras, where one bilinear comparison says all. Software drivers run both sides of every `if` but
-// leave a loop as soon as no pixel of a group goes on, so the loops themselves are what skips the work; a constant count
-// would be unrolled and always paid.
+// leave a loop at its end when no pixel of a group goes on, so the loops themselves are what skips the work; a constant
+// count would be unrolled and always paid. They ask at their end, since asking at the start costs one more turn.
 float lit_share(SunReceiver r, float reach, float slack, int taps) {
     float turn = tap_rotation();
     vec2 first = vec2(cos(turn), sin(turn));
     float spread = frame.target.z / r.size;  // texels of disc radius per metre of height
     float heights = 0.0, blockers = 0.0;
     vec2 direction = first;
-    for (int i = 0; i < taps; ++i) {
-        ivec2 at = ivec2(r.texel + direction * (reach * sqrt((float(i) + 0.5) / float(taps))));
+    int tap = 0;
+    do {
+        ivec2 at = ivec2(r.texel + direction * (reach * sqrt((float(tap) + 0.5) / float(taps))));
         direction = kGoldenTurn * direction;
         vec2 offset = vec2(at) + 0.5 - r.texel;
         float z = texelFetch(sun_depth, ivec3(at, r.layer), 0).r * r.scale;
         float height = r.depth + dot(r.gradient, offset) - z;
-        if (height > slack && length(offset) - 1.0 <= spread * height) {
+        if (tap < taps && height > slack && length(offset) - 1.0 <= spread * height) {
             heights += height;
             blockers += 1.0;
         }
-    }
+    } while (++tap < taps);
     float radius = 0.0;
     if (blockers > 0.0) radius = max(spread * heights / blockers, 0.5);
     int count = blockers > 0.0 ? taps : 1;
     float lit = 0.0;
     direction = first;
-    for (int i = 0; i < count; ++i) {
-        lit += lit_bilinear(r, direction * (radius * sqrt((float(i) + 0.5) / float(count))), slack);
+    tap = 0;
+    do {
+        lit += lit_bilinear(r, direction * (radius * sqrt((float(tap) + 0.5) / float(count))), slack);
         direction = kGoldenTurn * direction;
-    }
+    } while (++tap < count);
     lit /= float(count);
-    for (int i = 0; i < 1 && blockers > 0.0; ++i) lit *= 1.0 - shut_share(r, slack, 0.5 / spread);
-    return lit;
+    return blockers > 0.0 ? lit * (1.0 - shut_share(r, slack, 0.5 / spread)) : lit;
 }
 
 // position: world; normal: of the face, turned to the side that is seen. Zero when that side turns away from the sun.
@@ -137,7 +138,9 @@ float sun_visibility(int sun, vec3 position, vec3 normal) {
     float reach = narrowing * r.depth / r.size;  // texels; no blocker stands higher than depth 0
     float lit = -1.0;
     int levels = textureQueryLevels(sun_range);
-    for (int step = 0; step < 3 && reach > 0.75; ++step) {
+    int step = 0;
+    do {
+        if (reach <= 0.75) break;
         // Blocks as wide as the reach: with its neighbours a block holds the whole kernel, and nothing beyond two blocks.
         int mip = clamp(((floatBitsToInt(reach) >> 23) - 126) - 2, 0, levels - 1);  // the exponent: ceil(log2)
         vec2 range = texelFetch(sun_range, ivec3(ivec2(r.texel) >> (mip + 2), r.layer), mip).rg * r.scale;
@@ -151,18 +154,19 @@ float sun_visibility(int sun, vec3 position, vec3 normal) {
             break;
         }
         reach = closer;
-    }
+    } while (++step < 3 && reach > 0.75);
     float open = lit_share(r, reach, slack, lit < 0.0 && reach > 0.75 ? SHADOW_TAPS : 0);
     if (lit < 0.0) lit = open;
 #ifdef BLEND_CASTERS
     // A pane must not dim itself: it counts from a little behind its own plane, as steep as that is.
     float behind = r.depth - slack - 2.0 * r.size * steepness - 1.0e-3;
     ivec2 at = ivec2(r.texel * (vec2(textureSize(sun_veils, 0).xy) / frame.counts.z));
-    for (int i = 0; i < kVeils && lit > 0.0; ++i) {
+    int i = 0;
+    do {
         vec2 veil = texelFetch(sun_veils, ivec3(at, r.layer * kVeils + i), 0).rg;
         if (veil.r * r.scale >= behind) break;
         lit *= veil.g;
-    }
+    } while (++i < kVeils && lit > 0.0);
 #endif
     return lit;
 }

@@ -7,7 +7,7 @@
 #endif
 #ifdef LAMPS
 #include "shaders/lamps.glsl"
-layout(location = 10) uniform uvec4 lamp_bits;  // the lamps that may light what is drawn; LAMPS words are used
+layout(location = 10) uniform uvec4 lamp_bits;  // the lamps that may light what is drawn, one or more
 #endif
 #ifdef LIGHTMAP
 #include "shaders/baked_light.glsl"
@@ -55,24 +55,28 @@ void add_light(inout Light light, Brdf brdf, vec3 facing_irradiance, vec3 to_lig
 Light direct_light(Brdf brdf, vec3 normal, vec3 face_normal, vec3 view) {
     Light light = Light(vec3(0.0), vec3(0.0));
     vec3 mirrored = reflect(-view, normal);
+    // Both loops ask at their end, and never for less than one light: a software driver runs a loop's body once more after
+    // the last pixel has left it.
 #ifdef SUNS
     Brdf under_disc = brdf;
     under_disc.exponent = disc_widened_exponent(brdf.exponent, frame.target.z);
-    for (int i = 0; i < SUNS; ++i) {
-        vec3 to_sun = frame.suns[i].direction.xyz;
-        if (dot(normal, to_sun) <= 0.0) continue;
-        float seen = sun_visibility(i, v_position, face_normal);
-        add_light(light, under_disc, frame.suns[i].irradiance.rgb * seen, to_sun, normal, mirrored);
-    }
+    int sun = 0;
+    do {
+        vec3 to_sun = frame.suns[sun].direction.xyz;
+        if (dot(normal, to_sun) > 0.0) {
+            float seen = sun_visibility(sun, v_position, face_normal);
+            add_light(light, under_disc, frame.suns[sun].irradiance.rgb * seen, to_sun, normal, mirrored);
+        }
+    } while (++sun < SUNS);
 #endif
 #ifdef LAMPS
-    for (int word = 0; word < LAMPS; ++word)
-        for (uint bits = lamp_bits[word]; bits != 0u; bits &= bits - 1u) {
-            int i = 32 * word + findLSB(bits);
-            vec3 to_lamp = lamp_block.lamps[i].position.xyz - v_position;
-            vec3 e = lamp_irradiance(i, to_lamp) * lamp_visibility(i, to_lamp, face_normal);
-            add_light(light, brdf, e, normalize(to_lamp), normal, mirrored);
-        }
+    uvec4 left = lamp_bits;
+    do {
+        int lamp = take_lamp(left);
+        vec3 to_lamp = lamp_block.lamps[lamp].position.xyz - v_position;
+        vec3 e = lamp_irradiance(lamp, to_lamp) * lamp_visibility(lamp, to_lamp, face_normal);
+        add_light(light, brdf, e, normalize(to_lamp), normal, mirrored);
+    } while (any_lamp(left));
 #endif
     return light;
 }
