@@ -63,15 +63,17 @@ DrawCount BlendPass::draw(DrawScene& scene, const View& view, const FrameDefines
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_SRC1_COLOR);  // light + share let through * what lies behind
     glDepthMask(GL_FALSE);
+    const Lights lights{scene.every_lamp};
     for (const BlendRun& run : order.runs) {
         const Geometry& part = *scene.parts[run.part];
         const Batch& batch = part.mesh().batches[run.batch];
         part.bind();
-        const Program& program = scene.programs.get(
-            "surface.vert", "surface.frag",
-            frame_defines.with(surface_defines(scene.material(batch), batch.vertex_colors), std::size_t(run.part), {}));
+        const Program& program =
+            scene.programs.get("surface.vert", "surface.frag",
+                               frame_defines.with(surface_defines(scene.material(batch), batch.vertex_colors),
+                                                  std::size_t(run.part), lights));
         program.use();
-        set_lamp_bits(program, Lights().lamps);
+        set_lamp_bits(program, lights.lamps);
         scene.materials->bind(batch.material);
         if (scene.material(batch).double_sided) glDisable(GL_CULL_FACE);
         else glEnable(GL_CULL_FACE);

@@ -75,7 +75,7 @@ std::vector<std::pair<Lights, DrawList>> DrawScene::lists_by_lights(const Geomet
         }
         ++count.clusters_drawn;
         Lights lights;
-        if (known && !lamp_bits.empty()) lights.lamps = lamp_bits[c];
+        lights.lamps = known && !lamp_bits.empty() ? lamp_bits[c] : every_lamp;
         if (!standing) lights.volume_at_pixels = volume_objects.at_pixels(c);
         const std::uint32_t reached = known && !sun_split.reached.empty() ? sun_split.reached[c] : cluster.count;
         add(lights, cluster.first, reached);

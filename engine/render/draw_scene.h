@@ -25,7 +25,7 @@ using LampBits = std::array<std::uint32_t, 4>;
 
 /// The lights that may reach something.
 struct Lights {
-    LampBits lamps = {~0u, ~0u, ~0u, ~0u};
+    LampBits lamps = {};
     bool suns = true;
     bool volume_at_pixels = false;  // of what moves: else it is told at vertices
     bool operator==(const Lights&) const = default;
@@ -65,7 +65,8 @@ struct DrawScene {
     bool cull = true;           // clusters; false draws everything, to judge what culling saves
     std::uint64_t version = 0;  // one more whenever a triangle has moved
     std::uint64_t standing_version = 0;  // as version, of what stands alone
-    std::vector<LampBits> lamp_bits;     // by cluster of what stands; empty: every lamp may light everything
+    std::vector<LampBits> lamp_bits;     // by cluster of what stands; empty: every_lamp may light everything
+    LampBits every_lamp = {};            // those that shine
     SunSplit sun_split;
     std::vector<bool> seen_clusters;  // of what stands, by number modulo the size: draw_surfaces() leaves out the
                                       // others; empty: not known, all may be seen

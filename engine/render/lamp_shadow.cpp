@@ -153,6 +153,8 @@ DrawCount LampShadow::draw(DrawScene& scene) {
             glClearNamedFramebufferfv(framebuffer_.get(), GL_DEPTH, 0, &far);
             count.add(scene.draw_casters(matrix, frustum(matrix, true)));
         }
+    scene.every_lamp = {};
+    for (std::size_t i = 0; i < fits_.size(); ++i) scene.every_lamp[i / 32] |= 1u << (i % 32);
     find_lit_clusters(scene);
     drawn_ = fits_;
     drawn_version_ = scene.version;
