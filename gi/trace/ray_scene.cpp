@@ -132,11 +132,15 @@ class SeenTriangles {
     std::unordered_set<std::array<Vec3, 3>, Hash> seen_;
 };
 
-/// Embree passes its context on to the filters; ours has the query's own data behind it.
+/// Embree passes its context on to the filters; ours has the query's own data behind it, by the rays' ids.
 struct QueryContext {
+    explicit QueryContext(const std::uint64_t* keys_of_rays, float* shares_of_rays = nullptr)
+        : keys(keys_of_rays), transmittances(shares_of_rays) {
+        rtcInitIntersectContext(&embree);
+    }
     RTCIntersectContext embree;
-    std::uint64_t key = 0;
-    float transmittance = 1.0f;
+    const std::uint64_t* keys;  // of closest hits
+    float* transmittances;      // of shadow rays: so far
 };
 
 struct Release {
@@ -157,6 +161,23 @@ void set_ray(RTCRay& r, const Ray& ray) {
     r.id = 0;
     r.flags = 0;
 }
+void set_ray(RTCRay8& r, std::size_t i, const Ray& ray) {
+    r.org_x[i] = ray.origin.x, r.org_y[i] = ray.origin.y, r.org_z[i] = ray.origin.z;
+    r.dir_x[i] = ray.direction.x, r.dir_y[i] = ray.direction.y, r.dir_z[i] = ray.direction.z;
+    r.tnear[i] = ray.t_min, r.tfar[i] = ray.t_max;
+    r.time[i] = 0.0f;
+    r.mask[i] = ~0u;
+    r.id[i] = unsigned(i);
+    r.flags[i] = 0;
+}
+
+/// Which of a bundle's rays there are, as Embree asks for it.
+struct ValidRays {
+    alignas(32) int mask[RayScene::kBundle];
+    explicit ValidRays(std::size_t count) {
+        for (std::size_t i = 0; i < RayScene::kBundle; ++i) mask[i] = i < count ? -1 : 0;
+    }
+};
 
 }  // namespace
 
@@ -186,6 +207,8 @@ struct RayScene::State {
     void attach(unsigned geometry_id, RTCBuffer vertices);
     float alpha(std::uint32_t triangle, const Vec2& barycentric) const;
     Vec3 bent_normal(const Hit& hit, const SurfacePoint& point) const;
+    void set_hit(std::optional<Hit>& hit, unsigned geometry, unsigned primitive, float distance, float u,
+                 float v) const;
 
     static void filter_closest(const RTCFilterFunctionNArguments* args);
     static void filter_occluded(const RTCFilterFunctionNArguments* args);
@@ -275,24 +298,43 @@ Vec3 RayScene::State::bent_normal(const Hit& hit, const SurfacePoint& point) con
     return normal;
 }
 
-// Only single rays are traced, so every filter call has one ray and one hit.
 void RayScene::State::filter_closest(const RTCFilterFunctionNArguments* args) {
     const State& state = *static_cast<const State*>(args->geometryUserPtr);
     const auto* query = reinterpret_cast<const QueryContext*>(args->context);
-    const auto* hit = reinterpret_cast<const RTCHit*>(args->hit);
-    const std::uint32_t triangle = state.members[1][hit->primID];
-    const float alpha = state.alpha(triangle, Vec2(hit->u, hit->v));
-    const float chance = float(mix64(query->key ^ mix64(triangle)) >> 40) * 0x1p-24f;
-    if (chance >= alpha) args->valid[0] = 0;
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (args->valid[i] == 0) continue;
+        const std::uint32_t triangle = state.members[1][RTCHitN_primID(args->hit, args->N, i)];
+        const float alpha =
+            state.alpha(triangle, Vec2(RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i)));
+        const std::uint64_t key = query->keys[RTCRayN_id(args->ray, args->N, i)];
+        const float chance = float(mix64(key ^ mix64(triangle)) >> 40) * 0x1p-24f;
+        if (chance >= alpha) args->valid[i] = 0;
+    }
 }
 
 void RayScene::State::filter_occluded(const RTCFilterFunctionNArguments* args) {
     const State& state = *static_cast<const State*>(args->geometryUserPtr);
     auto* query = reinterpret_cast<QueryContext*>(args->context);
-    const auto* hit = reinterpret_cast<const RTCHit*>(args->hit);
-    const float alpha = state.alpha(state.members[1][hit->primID], Vec2(hit->u, hit->v));
-    query->transmittance *= 1.0f - std::min(alpha, 1.0f);
-    if (query->transmittance > 0.0f) args->valid[0] = 0;
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (args->valid[i] == 0) continue;
+        const float alpha = state.alpha(state.members[1][RTCHitN_primID(args->hit, args->N, i)],
+                                        Vec2(RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i)));
+        float& transmittance = query->transmittances[RTCRayN_id(args->ray, args->N, i)];
+        transmittance *= 1.0f - std::min(alpha, 1.0f);
+        if (transmittance > 0.0f) args->valid[i] = 0;
+    }
+}
+
+/// Writes in place: an optional copied right after being written in pieces would stall the processor.
+void RayScene::State::set_hit(std::optional<Hit>& hit, unsigned geometry, unsigned primitive, float distance, float u,
+                              float v) const {
+    if (geometry == RTC_INVALID_GEOMETRY_ID) return hit.reset();
+    Hit& met = hit.emplace();
+    met.triangle = members[geometry][primitive];
+    met.distance = distance;
+    met.barycentric.x = u, met.barycentric.y = v;
+    const Vec3& normal = normals[met.triangle];
+    met.normal.x = normal.x, met.normal.y = normal.y, met.normal.z = normal.z;
 }
 
 RayScene::RayScene(const Scene& scene, const WorldMesh& mesh) : state_(std::make_unique<State>(scene, mesh)) {}
@@ -323,35 +365,62 @@ void RayScene::log_rays(std::vector<Ray>* log) {
     state_->log = log;
 }
 
-std::optional<Hit> RayScene::closest(const Ray& ray, std::uint64_t key) const {
+void RayScene::log(const Ray& ray) const {
     if (state_->log) state_->log->push_back(ray);
-    QueryContext query;
-    rtcInitIntersectContext(&query.embree);
-    query.key = key;
+}
+
+std::optional<Hit> RayScene::closest(const Ray& ray, std::uint64_t key) const {
+    log(ray);
+    QueryContext query(&key);
     RTCRayHit r;
     set_ray(r.ray, ray);
     r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(state_->accelerator.get(), &query.embree, &r);
     std::optional<Hit> hit;
-    if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
-    Hit& met = hit.emplace();
-    met.triangle = state_->members[r.hit.geomID][r.hit.primID];
-    met.distance = r.ray.tfar;
-    met.barycentric.x = r.hit.u, met.barycentric.y = r.hit.v;
-    const Vec3& normal = state_->normals[met.triangle];
-    met.normal.x = normal.x, met.normal.y = normal.y, met.normal.z = normal.z;
+    state_->set_hit(hit, r.hit.geomID, r.hit.primID, r.ray.tfar, r.hit.u, r.hit.v);
     return hit;
 }
 
 float RayScene::transmittance(const Ray& ray) const {
-    if (state_->log) state_->log->push_back(ray);
-    QueryContext query;
-    rtcInitIntersectContext(&query.embree);
+    log(ray);
+    float share = 1.0f;
+    QueryContext query(nullptr, &share);
     RTCRay r;
     set_ray(r, ray);
     rtcOccluded1(state_->accelerator.get(), &query.embree, &r);
-    return r.tfar < 0.0f ? 0.0f : query.transmittance;
+    return r.tfar < 0.0f ? 0.0f : share;
+}
+
+void RayScene::closest(std::span<const Ray> rays, std::span<const std::uint64_t> keys,
+                       std::span<std::optional<Hit>> hits) const {
+    QueryContext query(keys.data());
+    query.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    const ValidRays valid(rays.size());
+    RTCRayHit8 r;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        log(rays[i]);
+        set_ray(r.ray, i, rays[i]);
+        r.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+        r.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    rtcIntersect8(valid.mask, state_->accelerator.get(), &query.embree, &r);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        state_->set_hit(hits[i], r.hit.geomID[i], r.hit.primID[i], r.ray.tfar[i], r.hit.u[i], r.hit.v[i]);
+}
+
+void RayScene::transmittance(std::span<const Ray> rays, std::span<float> shares) const {
+    QueryContext query(nullptr, shares.data());
+    const ValidRays valid(rays.size());
+    RTCRay8 r;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        log(rays[i]);
+        set_ray(r, i, rays[i]);
+        shares[i] = 1.0f;
+    }
+    rtcOccluded8(valid.mask, state_->accelerator.get(), &query.embree, &r);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        if (r.tfar[i] < 0.0f) shares[i] = 0.0f;
 }
 
 SurfacePoint RayScene::surface_point(const Ray& ray, const Hit& hit) const {

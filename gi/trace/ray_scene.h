@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/scene/pose.h"
@@ -62,6 +63,14 @@ class RayScene {
     /// Share of light let through between the ray's ends: 0 blocked; MASK cut-outs let all, BLEND 1 - alpha each.
     float transmittance(const Ray& ray) const;
 
+    /// How many rays may be traced together.
+    static constexpr std::size_t kBundle = 8;
+    /// closest() of rays that lie close together, as those through one pixel; at most kBundle.
+    void closest(std::span<const Ray> rays, std::span<const std::uint64_t> keys,
+                 std::span<std::optional<Hit>> hits) const;
+    /// transmittance() of several rays, at most kBundle; the closer together, the faster.
+    void transmittance(std::span<const Ray> rays, std::span<float> shares) const;
+
     SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
 
     /// Start of a ray that leaves a surface point: moved off the plane along the geometric normal (on the side of
@@ -87,6 +96,8 @@ class RayScene {
 
   private:
     struct State;
+    void log(const Ray& ray) const;
+
     std::unique_ptr<State> state_;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
-// One path at a time: what one sample of a pixel or of a point sees.
+// A few paths at a time that start close together: what samples of one pixel or of one point see.
 #include <cstdint>
+#include <span>
 
 #include "gi/transport/path_trace/bsdf.h"
 #include "gi/transport/path_trace/lights.h"
@@ -16,25 +17,37 @@ class Integrator {
     Integrator(const RayScene& rays, const Lighting& lighting, std::span<const PlacedLight> lamps,
                const PathTraceSettings& settings);
 
+    /// How many paths go together at most.
+    static constexpr std::size_t kWave = RayScene::kBundle;
+
     struct Sample {
         Rgb value = Rgb(0.0f);
         std::uint32_t rays = 0;
     };
-    /// One sample of settings.layer along a camera ray.
-    Sample camera_sample(const ViewRay& ray, PathRandom& random) const;
-    /// One sample of the irradiance at a point, lux: Layer::Final all light, else only the indirect part.
-    Sample irradiance_sample(const SurfaceSample& point, PathRandom& random) const;
+    struct CameraStart {
+        ViewRay ray;
+        PathRandom random;
+    };
+    /// Samples of settings.layer along camera rays, at most kWave and close together: they are traced as one bundle.
+    void camera_samples(std::span<CameraStart> starts, std::span<Sample> samples) const;
+    /// Samples of the irradiance at a point, lux, at most kWave: Layer::Final all light, else only the indirect part.
+    void irradiance_samples(const SurfaceSample& point, std::span<PathRandom> randoms, std::span<Sample> samples) const;
 
   private:
     struct Path;
+    struct Shadow;
+    struct Shadows;
+    struct Wave;
     struct FoundSurface {
         Hit hit;
         Ray ray;  // that hit it; the distance to the eye is `travelled` + hit.distance
         float travelled = 0.0f;
     };
 
-    std::optional<FoundSurface> first_surface(const Ray& camera_ray, PathRandom& random, std::uint32_t& count) const;
+    void follow(Path& path, const Ray& camera_ray, const std::optional<Hit>& hit) const;
+    std::optional<FoundSurface> first_surface(Path& path, const Ray& camera_ray, std::optional<Hit> hit) const;
     Rgb surface_layer(const SurfacePoint& point) const;
+    void irradiate(Path& path, const Vec3& position, const Vec3& geometric_normal, const Vec3& shading_normal) const;
     void trace(Path& path, Ray& ray) const;
     bool meet(Path& path, Ray& ray, const Hit& hit) const;
     void plan_sky(Path& path) const;
@@ -47,7 +60,11 @@ class Integrator {
                             const Reflection& reflection) const;
     void add_area_light(Path& path, const Vec3& position, const Vec3& geometric_normal,
                         const Reflection& reflection) const;
-    float visibility(Path& path, const Vec3& position, const Vec3& geometric_normal, const LightSample& sample) const;
+    void cast_shadow(Path& path, Shadows& shadows, const Vec3& position, const Vec3& geometric_normal,
+                     const LightSample& sample, const Shadow& shadow) const;
+    void add_unshadowed(Path& path, const Shadow& shadow, float through) const;
+    void trace_shadows(Shadows& shadows) const;
+    void finish(Wave& wave, std::span<Sample> samples) const;
     bool sun_in(const Vec3& direction) const;
     bool survives(Path& path) const;
 

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
@@ -51,16 +52,26 @@ int group_size(const PathTraceSettings& settings) {
 void add_pixel(Film& film, const Integrator& integrator, const ViewRays& rays, std::uint64_t seed, int x, int y,
                int first, int count, int group_size) {
     const std::uint64_t receiver = std::uint64_t(y) * std::uint64_t(film.width()) + std::uint64_t(x);
-    for (int s = first; s < first + count;) {
-        Film::Group group;
-        const int end = std::min(s - s % group_size + group_size, first + count);
-        for (; s < end; ++s) {
-            PathRandom random(seed, receiver, std::uint64_t(s), std::uint32_t(group_size));
+    const int end = first + count;
+    std::vector<Integrator::CameraStart> starts;
+    starts.reserve(Integrator::kWave);
+    std::array<Integrator::Sample, Integrator::kWave> samples;
+    Film::Group group;
+    for (int s = first; s < end;) {
+        starts.clear();
+        for (int i = s; i < end && starts.size() < Integrator::kWave; ++i) {
+            PathRandom random(seed, receiver, std::uint64_t(i), std::uint32_t(group_size));
             const Vec2 place = Vec2(x, y) + random.pair(Net::Pixel);
-            const Integrator::Sample sample = integrator.camera_sample(rays.at(place.x, place.y), random);
-            group.add(sample.value, sample.rays);
+            starts.push_back({rays.at(place.x, place.y), random});
         }
-        film.add(x, y, group);
+        const auto wave = std::span(samples).first(starts.size());
+        integrator.camera_samples(starts, wave);
+        for (const Integrator::Sample& sample : wave) {
+            group.add(sample.value, sample.rays);
+            if (++s % group_size != 0 && s < end) continue;
+            film.add(x, y, group);
+            group = {};
+        }
     }
 }
 
@@ -135,11 +146,17 @@ std::vector<Rgb> path_trace_irradiance(const RayScene& rays, const Lighting& lig
     const std::uint32_t group = std::bit_ceil(std::uint32_t(settings.spp));
     ProgressCounter counter(progress, double(points.size()));
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 1), [&](const auto& range) {
+        std::vector<PathRandom> randoms;
+        std::array<Integrator::Sample, Integrator::kWave> samples;
         for (std::size_t i = range.begin(); i != range.end() && !counter.stopped(); ++i) {
             glm::dvec3 sum(0.0);
-            for (int s = 0; s < settings.spp; ++s) {
-                PathRandom random(settings.seed, i, std::uint64_t(s), group);
-                sum += glm::dvec3(integrator.irradiance_sample(points[i], random).value);
+            for (int s = 0; s < settings.spp;) {
+                randoms.clear();
+                for (; s < settings.spp && randoms.size() < Integrator::kWave; ++s)
+                    randoms.emplace_back(settings.seed, i, std::uint64_t(s), group);
+                const auto wave = std::span(samples).first(randoms.size());
+                integrator.irradiance_samples(points[i], randoms, wave);
+                for (const Integrator::Sample& sample : wave) sum += glm::dvec3(sample.value);
             }
             irradiance[i] = Rgb(sum / double(settings.spp));
             counter.add(1.0);
