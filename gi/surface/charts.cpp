@@ -21,7 +21,7 @@ constexpr float kMinCosine = 0.8f;  // of a triangle's normal with the seed's: s
 constexpr std::size_t kTriedEdges = 48;  // directions tried when a chart is turned into its rectangle
 constexpr float kMostDifference = 4.0f;  // of nearness in a chart from its seed's, as a factor
 constexpr float kSmooth = 0.9f;  // cosine between shading normals along an edge: else light would bleed round a corner
-constexpr float kFewTexels = 4.0f;  // in area, that may be hidden and nevertheless lie in the chart beside
+constexpr float kSmallPiece = 4.0f;  // in area, that may be hidden and nevertheless lie in the chart beside
 constexpr float kFlat = 0.996f;  // cosine: without a crease between them, two charts' own noise would show as a seam
 
 /// Vertices at the same place are one vertex, whatever their normals and texture coordinates.
@@ -260,7 +260,7 @@ std::vector<Chart> grow_charts(const WorldMesh& mesh, float grain, std::span<con
         const auto try_add = [&](std::uint32_t t) {
             if (chart_of[t] != kNone) return;
             const float cosine = glm::dot(facet[t].normal, facet[seed].normal);
-            const bool small = facet[t].area <= kFewTexels * texel_area;
+            const bool small = facet[t].area <= kSmallPiece * texel_area;
             if (cosine < kMinCosine || (!around.empty() && !alike(around[t], around[seed], cosine, small))) return;
             std::array<Vec2, 3> p;
             for (std::size_t k = 0; k < 3; ++k) p[k] = chart.project(corner(mesh, t, k));
