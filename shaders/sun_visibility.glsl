@@ -78,7 +78,7 @@ float lit_share(SunReceiver r, float reach, float slack, int taps) {
     vec2 direction = first;
     int tap = 0;
     do {
-        ivec2 at = ivec2(r.texel + direction * (reach * sqrt((float(tap) + 0.5) / float(taps))));
+        ivec2 at = ivec2(r.texel + direction * (reach * sqrt((float(tap) + 0.5) / float(max(taps, 1)))));
         direction = kGoldenTurn * direction;
         vec2 offset = vec2(at) + 0.5 - r.texel;
         float z = texelFetch(sun_depth, ivec3(at, r.layer), 0).r * r.scale;
