@@ -10,7 +10,7 @@
 namespace daylit {
 namespace {
 
-constexpr std::size_t kClusterTriangles = 384;
+constexpr std::size_t kClusterTriangles = 128;
 constexpr std::uint32_t kNone = ~std::uint32_t(0);
 
 void pack_frame(VertexAttributes& a, const Vec3& normal, const Vec4& tangent) {

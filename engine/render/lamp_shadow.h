@@ -4,28 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "engine/render/draw_scene.h"
-#include "shaders/shared/frame_block.h"
+#include "engine/render/lamp_fit.h"
+#include "engine/render/lit_clusters.h"
 
 namespace daylit {
-
-/// One map: looking along z from the lamp, tan_half to each side.
-struct LampMap {
-    std::size_t lamp;
-    Vec3 x, z;  // unit; y is cross(z, x)
-};
-
-/// The maps of a lamp, in the order of their layers, and the lamp's block with everything but its first layer.
-struct LampFit {
-    glsl::LampBlock block;
-    float tan_half;  // of the angle that each map spans
-    bool moves = false;
-    std::vector<LampMap> maps;
-};
-LampFit fit_lamp(const PlacedLight& lamp, std::size_t number, int texels);
-
-/// clip_from_world with reversed infinite depth: near / distance along z.
-Mat4 lamp_matrix(const LampFit& fit, const LampMap& map);
 
 class LampShadow {
   public:
@@ -41,11 +23,7 @@ class LampShadow {
     bool any_spots() const;
 
   private:
-    /// Which clusters of what stands each standing lamp sees, past what stands alone (a door may open).
-    void find_lit_clusters(DrawScene& scene);
-
-    std::vector<LampFit> lit_;
-    std::uint64_t lit_version_ = 0;
+    LitClusters lit_clusters_;
     std::vector<LampFit> fits_, drawn_;
     std::vector<bool> stale_;  // by layer
     std::uint64_t drawn_version_ = 0;

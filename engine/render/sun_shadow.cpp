@@ -20,9 +20,6 @@ int range_levels(int texels) { return mip_levels(texels / 4, texels / 4) - 2; }
 
 }  // namespace
 
-SunShadow::SunShadow() = default;
-SunShadow::~SunShadow() = default;
-
 SunFit fit_sun(const Sun& sun, const Bounds& scene, const Vec3& eye, int texels, float nearest) {
     const Vec3 d = sun.direction;
     const Vec3 x = glm::normalize(glm::cross(std::abs(d.y) < 0.99f ? Vec3(0, 1, 0) : Vec3(0, 0, 1), d));
@@ -181,7 +178,7 @@ void SunShadow::read_farthest(int layer) {
                          GLsizei(range.size() * sizeof(Vec2)), range.data());
     std::vector<float> farthest(range.size());
     std::transform(range.begin(), range.end(), farthest.begin(), [](const Vec2& r) { return r.y; });
-    farthest_[std::size_t(layer)] = FarthestDepth(side, std::move(farthest));
+    farthest_[std::size_t(layer)] = FarthestDepth(side, side, std::move(farthest));
 }
 
 bool SunShadow::any_may_reach(const TriangleCorners& triangle, bool double_sided) const {

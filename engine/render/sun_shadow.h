@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/render/draw_scene.h"
+#include "engine/render/farthest_depth.h"
 #include "engine/scene/sky.h"
 #include "shaders/shared/frame_block.h"
 
@@ -29,12 +30,8 @@ Mat4 cascade_matrix(const SunFit& fit, std::size_t cascade, int texels);
 /// BLEND casters that one ray of light may pass: two panes of two faces and one more surface.
 inline constexpr int kVeils = 5;
 
-class FarthestDepth;
-
 class SunShadow {
   public:
-    SunShadow();
-    ~SunShadow();
     /// Plans the maps for this frame; true when some of them must be drawn again.
     bool plan(std::span<const Sun> suns, const DrawScene& scene, const Vec3& eye, int texels);
     /// Draws what plan() found stale, at most once each.

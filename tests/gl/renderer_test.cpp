@@ -46,15 +46,7 @@ TEST_F(RendererTest, plane_under_the_sun_is_albedo_e_cos_over_pi_gl) {
 
 TEST_F(RendererTest, plane_under_a_lamp_is_intensity_over_distance_squared_gl) {
     Scene scene = scene_of({ground(Vec3(0), 5, 5, 0)}, {lambert(Rgb(0.5f))});
-    Node node;
-    node.translation = {0, 2, 0};
-    node.light = 0;
-    scene.order.push_back(int(scene.nodes.size()));
-    scene.nodes.push_back(node);
-    PunctualLight lamp;
-    lamp.node = int(scene.nodes.size()) - 1;
-    lamp.intensity = Rgb(300.0f);
-    scene.lights.push_back(lamp);
+    add_lamp(scene, {0, 2, 0});
     Renderer renderer(scene, nullptr);
     renderer.set_lighting({{}, {Image(1, 1)}});
     renderer.draw(frame_of(from_above(6.0f, Vec3(0), 3.0f), 61, 61));
@@ -70,16 +62,7 @@ TEST_F(RendererTest, what_is_lit_in_the_evening_follows_the_dimmer_gl) {
     glow.emission = Rgb(40.0f);
     glow.lit = Lit::Evening;
     Scene scene = scene_of({ground(Vec3(0), 5, 5, 0)}, {glow});
-    Node node;
-    node.translation = {0, 2, 0};
-    node.light = 0;
-    scene.order.push_back(int(scene.nodes.size()));
-    scene.nodes.push_back(node);
-    PunctualLight lamp;
-    lamp.node = int(scene.nodes.size()) - 1;
-    lamp.intensity = Rgb(300.0f);
-    lamp.lit = Lit::Evening;
-    scene.lights.push_back(lamp);
+    add_lamp(scene, {0, 2, 0}).lit = Lit::Evening;
     Renderer renderer(scene, nullptr);
     const double full = 40.0 + 0.5 / kPi * 300.0 / 4.0;
     for (const float evening : {0.0f, 0.25f, 1.0f, 0.5f, 0.0f}) {
@@ -338,6 +321,28 @@ TEST_F(RendererTest, what_is_left_out_in_the_dark_does_not_change_the_picture_gl
         EXPECT_GT(parted, pass(renderer.draw(frame), "surfaces").draws);  // lit tiles, dark tiles
         EXPECT_EQ(a.pixels, renderer.read_radiance().pixels);
     }
+}
+
+TEST_F(RendererTest, a_lamp_lights_what_is_smaller_than_its_maps_texels_gl) {
+    // Tiles of 4 mm, each a material and so a cluster of its own; the lamp's texels span more than 10 mm here.
+    std::vector<Primitive> quads = {ground(Vec3(0, -0.2f, 0), 4, 4, 0)};
+    std::vector<Material> materials = {lambert(Rgb(0.0f))};
+    for (int i = 0; i < 49; ++i) {
+        quads.push_back(
+            ground({float(i % 7) * 0.013f - 0.04f, 0, float(i / 7) * 0.017f - 0.05f}, 0.002f, 0.002f, i + 1));
+        materials.push_back(lambert(Rgb(0.5f)));
+    }
+    Scene scene = scene_of(quads, materials);
+    add_lamp(scene, {1.0f, 3.0f, 0.5f});
+    Renderer renderer(scene, nullptr);
+    renderer.set_lighting({{}, {Image(1, 1)}, {}});
+    FrameSettings frame = frame_of(from_above(0.13f), 130, 130);
+    renderer.draw(frame);
+    const Image a = renderer.read_radiance();
+    EXPECT_EQ(std::count_if(a.pixels.begin(), a.pixels.end(), [](const Rgb& p) { return p.g > 0.0f; }), 49 * 16);
+    frame.cull = false;
+    renderer.draw(frame);
+    EXPECT_EQ(a.pixels, renderer.read_radiance().pixels);
 }
 
 TEST_F(RendererTest, a_still_sun_costs_nothing_gl) {

@@ -48,6 +48,19 @@ inline Scene scene_of(std::vector<Primitive> primitives, std::vector<Material> m
     return scene;
 }
 
+/// A point lamp of 300 cd in all directions.
+inline PunctualLight& add_lamp(Scene& scene, const Vec3& position) {
+    PunctualLight lamp;
+    lamp.node = int(scene.nodes.size());
+    lamp.intensity = Rgb(300.0f);
+    Node node;
+    node.translation = position;
+    node.light = int(scene.lights.size());
+    scene.order.push_back(lamp.node);
+    scene.nodes.push_back(node);
+    return scene.lights.emplace_back(lamp);
+}
+
 /// Looks straight down on a square of the ground, x to the right and -z upwards.
 inline View from_above(float side, const Vec3& center = Vec3(0.0f), float height = 2.0f) {
     View view = look_at(center + Vec3(0, height, 0.0f), center, 1.0f);
