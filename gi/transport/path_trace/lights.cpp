@@ -49,8 +49,11 @@ SunDisc::SunDisc(const Sun& sun)
     : frame_(sun.direction), radiance_(disc_radiance(sun)), pdf_(pdf_cap(kSunCapHeight)) {}
 
 EnvironmentSampler::EnvironmentSampler(const Environment& sky)
-    : map_(sky.map), black_(sky.map.empty() || sky.black()),
-      texel_at_horizon_(black_ ? 0.0f : float(2.0 * kPi / sky.map.width * kPi / sky.map.height)) {
+    : map_(sky.map),
+      black_(sky.map.empty() || sky.black()),
+      texel_at_horizon_(black_ ? 0.0f : float(2.0 * kPi / sky.map.width * kPi / sky.map.height)),
+      one_over_width_(1.0 / std::max(sky.map.width, 1)),
+      one_over_size_(one_over_width_, 1.0 / std::max(sky.map.height, 1)) {
     if (black_ || sky.constant()) return;
     const auto w = std::size_t(map_.width), h = std::size_t(map_.height);
     std::vector<double> weights = bilinear_texel_means(map_);
