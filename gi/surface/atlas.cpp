@@ -233,6 +233,7 @@ std::vector<KeptLayout> within_budget(std::vector<KeptLayout> layouts, std::size
 }  // namespace
 
 float even_step(const WorldMesh& mesh, std::size_t texel_budget) {
+    if (texel_budget > std::size_t(kMaxAtlasSide) * kMaxAtlasSide) refuse_atlas_size();
     double area = 0.0;
     for (const Facet& f : facets(mesh)) area += f.area;
     return float(std::sqrt(area / double(std::max<std::size_t>(texel_budget, 1))));
@@ -240,7 +241,6 @@ float even_step(const WorldMesh& mesh, std::size_t texel_budget) {
 
 Atlas make_atlas(const WorldMesh& mesh, std::size_t texel_budget, std::span<const Surroundings> around,
                  const KeptLayouts& kept) {
-    if (texel_budget > std::size_t(kMaxAtlasSide) * kMaxAtlasSide) refuse_atlas_size();
     const Bounds box = bounds(mesh);
     // Half a texel's width; never so fine that a long sliver takes for ever.
     const float extent = box.empty() ? 1.0f : glm::length(box.max - box.min);

@@ -1,7 +1,9 @@
 # Configures and builds daylit without one of its halves, then makes sure that nothing of that half was linked.
 #   cmake -DSOURCE=... -DBINARY=... -DWITHOUT=baker|gl -P build_without.cmake
 if(WITHOUT STREQUAL "baker")
-  set(options -DDAYLIT_BAKER=OFF -DCMAKE_DISABLE_FIND_PACKAGE_embree=ON -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON)
+  # What is shared with the other half's build is compiled alone there.
+  set(options -DDAYLIT_BAKER=OFF -DCMAKE_DISABLE_FIND_PACKAGE_embree=ON -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON
+              -DCMAKE_UNITY_BUILD=ON -DCMAKE_PROJECT_INCLUDE=${CMAKE_CURRENT_LIST_DIR}/engine_alone.cmake)
   set(forbidden "libembree")
 elseif(WITHOUT STREQUAL "gl")
   set(options -DDAYLIT_GL=OFF -DCMAKE_DISABLE_FIND_PACKAGE_glfw3=ON)
@@ -17,7 +19,8 @@ function(must_run)
   endif()
 endfunction()
 
-# Not optimised, for speed, and every file compiled alone: the release preset joins them.
+# Not optimised, for speed; the two halves together compile all but a few of the command's files alone, which the release
+# preset joins.
 must_run(${CMAKE_COMMAND} -S ${SOURCE} -B ${BINARY} -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0
          -DDAYLIT_TESTS=OFF ${options})
 must_run(${CMAKE_COMMAND} --build ${BINARY})
