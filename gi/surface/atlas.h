@@ -44,6 +44,7 @@ struct Atlas {
 inline constexpr std::uint32_t kNoChart = ~0u;
 
 /// Metres between texels, could all surface be cut evenly.
+/// throws Error for a budget of more than 16384 x 16384 texels.
 float even_step(const WorldMesh& mesh, std::size_t texel_budget);
 
 /// Texels as small as the budget allows: finer where the surroundings are near, since light varies over a share of
