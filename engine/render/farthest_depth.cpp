@@ -5,35 +5,30 @@
 
 namespace daylit {
 
-FarthestDepth::FarthestDepth(int width, int height, std::vector<float> finest) {
-    levels_.push_back({width, height, std::move(finest)});
-    while (std::max(levels_.back().width, levels_.back().height) > 1) {
-        const Level& below = levels_.back();
-        Level level{(below.width + 1) / 2, (below.height + 1) / 2, {}};
-        level.values.resize(std::size_t(level.width) * std::size_t(level.height));
-        for (int y = 0; y < level.height; ++y) {
-            const float* a = &below.values[std::size_t(2 * y) * std::size_t(below.width)];
-            const float* b = 2 * y + 1 < below.height ? a + below.width : a;
-            float* out = &level.values[std::size_t(y) * std::size_t(level.width)];
-            for (int x = 0; x < below.width / 2; ++x)
-                out[x] = std::max(std::max(a[2 * x], a[2 * x + 1]), std::max(b[2 * x], b[2 * x + 1]));
-            if (below.width % 2) out[level.width - 1] = std::max(a[below.width - 1], b[below.width - 1]);
-        }
+FarthestDepth::FarthestDepth(int side, std::vector<float> finest) : side_(side), levels_{std::move(finest)} {
+    for (int s = side / 2; s >= 1; s /= 2) {
+        const std::vector<float>& below = levels_.back();
+        std::vector<float> level(std::size_t(s) * std::size_t(s));
+        for (int y = 0; y < s; ++y)
+            for (int x = 0; x < s; ++x) {
+                const float* a = &below[std::size_t(4 * s * y + 2 * x)];
+                const float* b = a + 2 * s;
+                level[std::size_t(s * y + x)] = std::max(std::max(a[0], a[1]), std::max(b[0], b[1]));
+            }
         levels_.push_back(std::move(level));
     }
 }
 
 float FarthestDepth::over(const Vec2& min, const Vec2& max) const {
-    const auto clamped = [](float x, int size) { return int(std::clamp(std::floor(x), 0.0f, float(size - 1))); };
-    const int w = levels_[0].width, h = levels_[0].height;
-    const int x0 = clamped(min.x, w), y0 = clamped(min.y, h), x1 = clamped(max.x, w), y1 = clamped(max.y, h);
-    int k = 0;
-    while (std::max((x1 >> k) - (x0 >> k), (y1 >> k) - (y0 >> k)) > 3) ++k;
-    const Level& level = levels_[std::size_t(k)];
+    const auto clamped = [&](float x) { return int(std::clamp(std::floor(x), 0.0f, float(side_ - 1))); };
+    const int x0 = clamped(min.x), y0 = clamped(min.y), x1 = clamped(max.x), y1 = clamped(max.y);
+    int level = 0;
+    while (std::max((x1 >> level) - (x0 >> level), (y1 >> level) - (y0 >> level)) > 3) ++level;
+    const std::vector<float>& values = levels_[std::size_t(level)];
     float farthest = 0.0f;
-    for (int y = y0 >> k; y <= y1 >> k; ++y)
-        for (int x = x0 >> k; x <= x1 >> k; ++x)
-            farthest = std::max(farthest, level.values[std::size_t(y) * std::size_t(level.width) + std::size_t(x)]);
+    for (int y = y0 >> level; y <= y1 >> level; ++y)
+        for (int x = x0 >> level; x <= x1 >> level; ++x)
+            farthest = std::max(farthest, values[std::size_t((side_ >> level) * y + x)]);
     return farthest;
 }
 

@@ -15,7 +15,7 @@ constexpr Vec3 kFaceX[6] = {{0, 1, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 1}, {1, 0, 0
 
 }  // namespace
 
-LampFit fit_lamp(const PlacedLight& lamp, std::size_t number, int texels) {
+LampFit fit_lamp(const PlacedLight& lamp, int texels) {
     const bool spot = lamp.kind == LightKind::Spot;
     const float outer = spot ? std::acos(glm::clamp(lamp.cos_outer, -1.0f, 1.0f)) : float(kPi);
     const bool cube = outer > kWidestSpot;
@@ -29,8 +29,8 @@ LampFit fit_lamp(const PlacedLight& lamp, std::size_t number, int texels) {
     fit.block.direction = Vec4(z, 1.0f / std::max(lamp.cos_inner - lamp.cos_outer, 1.0e-4f));
     fit.block.axis_x = Vec4(x, spot ? lamp.cos_outer : -2.0f);
     fit.block.map = Vec4(cube ? 0.0f : fit.tan_half, 0.0f, 0.0f, 0.0f);
-    if (!cube) fit.maps.push_back({number, x, z});
-    for (int face = 0; cube && face < 6; ++face) fit.maps.push_back({number, kFaceX[face], kFaceZ[face]});
+    if (!cube) fit.maps.push_back({x, z});
+    for (int face = 0; cube && face < 6; ++face) fit.maps.push_back({kFaceX[face], kFaceZ[face]});
     return fit;
 }
 

@@ -9,7 +9,6 @@ namespace daylit {
 
 /// One map: looking along z from the lamp, tan_half to each side.
 struct LampMap {
-    std::size_t lamp;
     Vec3 x, z;  // unit; y is cross(z, x)
 };
 
@@ -21,7 +20,7 @@ struct LampFit {
     std::vector<LampMap> maps;
 };
 /// texels   along a map's side
-LampFit fit_lamp(const PlacedLight& lamp, std::size_t number, int texels);
+LampFit fit_lamp(const PlacedLight& lamp, int texels);
 
 /// All alike but how bright they shine.
 bool same_maps(const LampFit& a, const LampFit& b);

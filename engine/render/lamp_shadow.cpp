@@ -28,13 +28,13 @@ bool LampShadow::plan(std::span<const PlacedLight> lamps, const DrawScene& scene
         });
         shining.resize(glsl::kMaxLamps);
     }
-    for (const PlacedLight& lamp : shining) layers += fit_lamp(lamp, 0, 1024).maps.size();
+    for (const PlacedLight& lamp : shining) layers += fit_lamp(lamp, 1024).maps.size();
     texels_ = texels_for(layers);
     layers_ = int(layers);
     fits_.clear();
     float first_layer = 0.0f;
     for (const PlacedLight& lamp : shining) {
-        fits_.push_back(fit_lamp(lamp, fits_.size(), texels_));
+        fits_.push_back(fit_lamp(lamp, texels_));
         fits_.back().block.intensity.w = first_layer;
         fits_.back().moves = lamp.node >= 0 && scene.scene.nodes[std::size_t(lamp.node)].dynamic;
         first_layer += float(fits_.back().maps.size());

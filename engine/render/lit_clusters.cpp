@@ -13,8 +13,7 @@ namespace daylit {
 namespace {
 
 constexpr int kSide = 512;  // texels of the map of numbers
-constexpr float kSurelySeen =
-    32.0f;  // texels: a triangle of this area is found in the map of numbers wherever it is lit
+constexpr float kFound = 32.0f;  // texels: of a triangle this large the map misses only light narrower than a texel
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// A lamp's map: the nearest clusters' numbers, and how far away they are.
@@ -47,7 +46,7 @@ class NumberMap {
         glGetTextureImage(depth_.get(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, GLsizei(distance.size() * sizeof(float)),
                           distance.data());
         for (float& d : distance) d = d > 0.0f ? glsl::kLampNear / d : kInfinity;
-        return FarthestDepth(kSide, kSide, std::move(distance));
+        return FarthestDepth(kSide, std::move(distance));
     }
 
   private:
@@ -72,22 +71,22 @@ class SmallTriangles {
         TriangleCorners p;  // seen from the lamp
         for (std::size_t i = 0; i < 3; ++i) p[i] = (triangle[i] - position_) * across_;
         const Vec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
-        const float facing = -glm::dot(normal, p[0]);
-        if (normal == Vec3(0.0f) || (!double_sided && facing <= 0.0f)) return false;
+        const float area = glm::length(normal);
+        if (area == 0.0f) return false;  // covers no pixel
+        if (!double_sided && -glm::dot(normal, p[0]) < kTurnedAway * area * glm::length(p[0])) return false;
         Vec2 place[3], min(kInfinity), max(-kInfinity);  // shares of the map's side
         for (std::size_t i = 0; i < 3; ++i) {
-            if (p[i].z < glsl::kLampNear) return false;  // large, so close by: the map of numbers knows
+            if (p[i].z < glsl::kLampNear) return false;  // another map's, or so near that it is large
             place[i] = Vec2(p[i]) / (p[i].z * span_) * 0.5f + 0.5f;
             min = glm::min(min, place[i]);
             max = glm::max(max, place[i]);
         }
         if (max.x < 0.0f || max.y < 0.0f || min.x > 1.0f || min.y > 1.0f) return false;
         const Vec2 u = place[1] - place[0], v = place[2] - place[0];
-        if (0.5f * std::abs(u.x * v.y - u.y * v.x) * float(kSide * kSide) > kSurelySeen) return false;
+        if (0.5f * std::abs(u.x * v.y - u.y * v.x) * float(kSide * kSide) > kFound) return false;
         min -= 1.5f * texel_;
         max += 1.5f * texel_;
-        return farthest_.over(min * float(kSide), max * float(kSide)) >=
-               nearest(normal / glm::length(normal), p[0], min, max);
+        return farthest_.over(min * float(kSide), max * float(kSide)) >= nearest(normal / area, p[0], min, max);
     }
 
   private:

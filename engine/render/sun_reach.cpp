@@ -9,7 +9,6 @@ namespace {
 constexpr int kDeepest = 6;            // times that a triangle is cut into four
 constexpr float kBlockTexels = 4.0f;   // of level 0, as the pyramid on the GPU has it
 constexpr float kWorthCutting = 4.0f;  // blocks: smaller triangles are as the map sees them
-constexpr float kTurnedAway = -0.02f;  // cosine at which a front surely turns away, whatever a pixel's derivatives say
 
 struct ShadowSpace {
     Vec2 min = Vec2(1.0e30f), max = Vec2(-1.0e30f);  // metres across the light

@@ -178,7 +178,7 @@ void SunShadow::read_farthest(int layer) {
                          GLsizei(range.size() * sizeof(Vec2)), range.data());
     std::vector<float> farthest(range.size());
     std::transform(range.begin(), range.end(), farthest.begin(), [](const Vec2& r) { return r.y; });
-    farthest_[std::size_t(layer)] = FarthestDepth(side, side, std::move(farthest));
+    farthest_[std::size_t(layer)] = FarthestDepth(side, std::move(farthest));
 }
 
 bool SunShadow::any_may_reach(const TriangleCorners& triangle, bool double_sided) const {

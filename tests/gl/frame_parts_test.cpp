@@ -183,7 +183,7 @@ TEST(SunReach, only_full_shadow_is_out_of_reach) {
                 const float at = std::max(center.x, center.y) + 0.5f * block < 5.0f ? 10.0f : 0.0f;
                 farthest.push_back((fit.block.direction.w - at) / fit.depth_range);
             }
-        maps.emplace_back(kSide, kSide, std::move(farthest));
+        maps.emplace_back(kSide, std::move(farthest));
     }
     const auto reached = [&](const Vec3& center, float half, bool upwards = true, bool double_sided = false) {
         const Vec3 a = center + Vec3(-half, 0, half), b = center + Vec3(half, 0, half), c = center + Vec3(0, 0, -half);

@@ -19,8 +19,8 @@ function(must_run)
   endif()
 endfunction()
 
-# Not optimised, for speed; the two halves together compile all but a few of the command's files alone, which the release
-# preset joins.
+# Not optimised, for speed. Files that the release preset joins are compiled alone, in one of the two builds; joined in both
+# are those of the command that draw.
 must_run(${CMAKE_COMMAND} -S ${SOURCE} -B ${BINARY} -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0
          -DDAYLIT_TESTS=OFF ${options})
 must_run(${CMAKE_COMMAND} --build ${BINARY})

@@ -59,18 +59,6 @@ TEST(Sampling, AnglesInTurnsAgreeWithTheLibrary) {
     EXPECT_EQ(turns_of(-1.0f, 0.0f), -0.25f);
 }
 
-TEST(Sampling, PowersOfSharesAreThoseOfTheLibrary) {
-    for (const float exponent : {0.0f, 0.3f, 1.0f, 7.5f, 100.0f, 5.0e3f, 1.0e6f})
-        for (int i = 1; i <= 40000; ++i) {
-            // Evenly over the shares, and close below 1, where narrow lobes have their light.
-            for (const float base : {float(i) / 40000.0f, 1.0f - float(i) * 0x1p-24f}) {
-                const double value = std::pow(double(base), double(exponent));
-                EXPECT_NEAR(power_of_share(base, exponent), value, 1e-5 * value + 0x1p-126) << base << "^" << exponent;
-            }
-        }
-    EXPECT_NEAR(power_of_share(1.0000005f, 1.0e6f), std::pow(1.0 + 0x1p-21, 1.0e6), 1e-4);
-}
-
 TEST(Sampling, AChoiceStretchesItsNumberToTheWholeRangeAgain) {
     constexpr int kCount = 1000;
     double sums[2] = {0.0, 0.0};

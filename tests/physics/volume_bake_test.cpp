@@ -162,7 +162,7 @@ TEST(VolumeBake, oats_controls_split_cells) {
         with_plate(room(lambert(Rgb(0.5f), Rgb(50.0f)), lambert(Rgb(0.5f)), lambert(Rgb(0.2f)), Vec3(2)), Vec3(1));
     const auto cells = [&](VolumeSettings volume) {
         BakeSettings settings = one_hour();
-        volume.error = 1.0f, volume.most_cells = 4000, volume.rays = 24;
+        volume.error = 1.0f, volume.most_cells = 4000, volume.rays = 96;
         settings.error = 1.0, settings.parts = {"volume"}, settings.volume = volume;
         return bake(scene, settings).volume->tree.cells.size();
     };

@@ -72,7 +72,7 @@ inline Reflection::Value Reflection::evaluate_with_pdf(const Vec3& light) const 
     // ln(c) <= c - 1, it is below e^-40 where it is not asked for.
     const float cos_lobe = glm::dot(mirror_, light);
     const bool lit = cos_lobe > 0.0f && brdf_.exponent * (1.0f - cos_lobe) < 40.0f;
-    const float lobe = lit ? power_of_share(cos_lobe, brdf_.exponent) * (0.5f * kInversePi) : 0.0f;
+    const float lobe = lit ? std::pow(cos_lobe, brdf_.exponent) * (0.5f * kInversePi) : 0.0f;
     return {brdf_.diffuse * diffuse_pdf + brdf_.specular * ((brdf_.exponent + 2.0f) * lobe * cosine),
             glm::mix(diffuse_pdf, (brdf_.exponent + 1.0f) * lobe, lobe_chance_)};
 }

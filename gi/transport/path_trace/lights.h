@@ -90,7 +90,7 @@ class EnvironmentSampler {
 inline EnvironmentSampler::Draw EnvironmentSampler::sample(std::uint64_t bits, Vec2 u) const {
     const auto [cell, chance] = table_.sample(bits);
     __builtin_prefetch(&map_.pixels[cell]);
-    // The row by a product, far from the next integer: a division takes as long as the rest together.
+    // The row without a division: by a product that the half keeps away from whole numbers.
     const auto y = std::uint32_t((double(cell) + 0.5) * one_over_width_);
     const std::uint32_t x = cell - y * std::uint32_t(map_.width);
     Draw draw;

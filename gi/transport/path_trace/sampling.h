@@ -60,26 +60,6 @@ inline float turns_of(float y, float x) {
     return std::copysign(t, y);
 }
 
-/// base^exponent for a base within (0, 1 + 1e-6] and an exponent >= 0, within 1e-5 of the value or 2^-126: the
-/// logarithm's series in (m - 1) / (m + 1) for the mantissa m, and Taylor's of 2^f for |f| <= 1/2. Twice as fast as the
-/// library's.
-inline float power_of_share(float base, float exponent) {
-    const auto bits = std::bit_cast<std::int32_t>(base);
-    const std::int32_t octave = (bits - std::bit_cast<std::int32_t>(0.70710678f)) >> 23;
-    const float m = std::bit_cast<float>(bits - (octave << 23));
-    const float s = (m - 1.0f) / (m + 1.0f), s2 = s * s;
-    const float log2_m =
-        s * (2.88539008f + s2 * (0.961796694f + s2 * (0.577078016f + s2 * (0.412198583f + s2 * 0.320598898f))));
-    const float y = std::max(exponent * (float(octave) + log2_m), -126.0f);
-    const auto whole = std::int32_t(y + std::copysign(0.5f, y));
-    const float f = y - float(whole);
-    const float two_f =
-        1.0f + f * (0.693147181f +
-                    f * (0.240226507f +
-                         f * (0.0555041087f + f * (0.00961812911f + f * (0.00133335581f + f * 0.000154035304f)))));
-    return two_f * std::bit_cast<float>((whole + 127) << 23);
-}
-
 inline Vec3 direction_around_z(float cos_theta, float sin_theta, float u) {
     const SinCos phi = sin_cos_turns(u);
     return Vec3(sin_theta * phi.cosine, sin_theta * phi.sine, cos_theta);
